@@ -1,0 +1,201 @@
+"""Dump files to frames, one at a time."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterable, Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from .errors import InputError
+from .frame import Box, Floats, Frame
+from .header import Header, read_header
+from .rows import parse_rows
+from .streams import LineSource, open_lines
+
+BREAKMERGE = ("n", "d", "l", "N_st", "N_cc", "N_smf")
+DRAG = ("ug_x", "ug_y", "ug_z", "fd_x", "fd_y", "fd_z", "Re", "tau")
+ALIASES = {
+    **{f"f_bm[{i}]": name for i, name in enumerate(BREAKMERGE, 1)},
+    **{f"f_drag[{i}]": name for i, name in enumerate(DRAG, 1)},
+}
+"""Plain names of the raw output columns of the fixes with the ids ``bm`` and ``drag``."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """Where a quantity stands in a row and what makes it SI: ``value * factor + shift``."""
+
+    index: int
+    factor: float = 1.0
+    shift: float = 0.0
+    wrap: tuple[float, float] | None = None
+
+
+def _coordinate(axis: int, names: dict[str, int], box: Box) -> Column | None:
+    letter, lo, length = "xyz"[axis], box.lo[axis], box.lengths[axis]
+    wrap = (lo, length) if box.periodic[axis] else None
+    for name, factor, shift in (
+        (letter, 1.0, 0.0),
+        (letter + "s", length, lo),
+        (letter + "u", 1.0, 0.0),
+        (letter + "su", length, lo),
+    ):
+        if name in names:
+            return Column(names[name], factor, shift, wrap)
+    return None
+
+
+def _layout(header: Header, path: str) -> dict[str, Column]:
+    """The columns of a frame by their plain names."""
+    names: dict[str, int] = {}
+    for index, raw in enumerate(header.names):
+        names.setdefault(raw, index)
+    for raw, plain in ALIASES.items():
+        if raw in names:
+            names.setdefault(plain, names[raw])
+    layout = {name: Column(index) for name, index in names.items()}
+    for axis, letter in enumerate("xyz"):
+        coordinate = _coordinate(axis, names, header.box)
+        if coordinate is not None:
+            layout[letter] = coordinate
+        elif letter != "y":
+            raise InputError(path, f"no column {letter}, {letter}s or {letter}u", header.names_line)
+    if "diameter" not in layout:
+        if "radius" not in layout:
+            raise InputError(path, "no column diameter or radius", header.names_line)
+        layout["diameter"] = Column(names["radius"], 2.0)
+    if "mass" not in layout:
+        raise InputError(path, "no column mass", header.names_line)
+    return layout
+
+
+def _values(column: Column, raw: Floats) -> Floats:
+    values = raw if column.factor == 1.0 and column.shift == 0.0 else raw * column.factor + column.shift
+    if column.wrap is not None:
+        lo, length = column.wrap
+        outside = (values < lo) | (values >= lo + length)
+        if outside.any():
+            values = values.copy()
+            values[outside] = lo + np.mod(values[outside] - lo, length)
+            values[values >= lo + length] = lo
+    return values
+
+
+def _check(frame: Frame) -> None:
+    for name in ("mass", "diameter"):
+        low = np.flatnonzero(frame[name] <= 0.0)
+        if len(low):
+            raise InputError(frame.path, f"{name} must be positive", frame.first_row + int(low[0]))
+    for axis, letter in ((0, "x"), (2, "z")):
+        if not frame.box.periodic[axis]:
+            lo, hi, slack = frame.box.lo[axis], frame.box.hi[axis], frame.diameter
+            values = frame[letter]
+            out = np.flatnonzero((values < lo - slack) | (values > hi + slack))
+            if len(out):
+                raise InputError(frame.path, f"{letter} lies outside the box", frame.first_row + int(out[0]))
+
+
+def _read_frame(source: LineSource, header: Header, columns: Collection[str] | None) -> Frame:
+    first = source.line + 1
+    layout = _layout(header, source.path)
+    if columns is not None:
+        always = {"x", "z", "mass", "diameter"}
+        layout = {name: column for name, column in layout.items() if name in always or name in columns}
+    indices = sorted({column.index for column in layout.values()})
+    block = source.readlines(header.count)
+    parsed = parse_rows(block, header.count, len(header.names), indices, source.path, first)
+    raw = dict(zip(indices, parsed))
+    values = {name: _values(column, raw[column.index]) for name, column in layout.items()}
+    frame = Frame(header.step, header.time, header.box, values, source.path, header.line, first)
+    _check(frame)
+    return frame
+
+
+def natural_order(paths: Iterable[str | Path]) -> list[Path]:
+    """Paths in the order a reader expects: ``case1.900.dump`` before ``case1.1000.dump``."""
+
+    def key(path: Path) -> list[tuple[int, int, str]]:
+        words = re.split(r"([0-9]+)", str(path))
+        return [(1, int(word), "") if word.isdecimal() and word.isascii() else (0, 0, word) for word in words]
+
+    return sorted((Path(path) for path in paths), key=key)
+
+
+def read_file(
+    path: str | Path,
+    columns: Collection[str] | None = None,
+    *,
+    share: tuple[int, int] = (0, 1),
+    dt: float | None = None,
+) -> Iterator[Frame]:
+    """The frames of one file, one at a time.
+
+    Parameters
+    ----------
+    path : str or Path
+        A LAMMPS or LIGGGHTS text dump; plain, .gz or .zst.
+    columns : collection of str, optional
+        Columns to read besides x, z, mass and diameter; all by default. Absent ones are left out.
+    share : (int, int), optional
+        Of every ``share[1]`` frames only number ``share[0]`` is returned; the rest are passed over.
+    dt : float, optional
+        Step (s) that gives the time where the dump holds none.
+
+    Yields
+    ------
+    Frame
+    """
+    with open_lines(path) as source:
+        number, last = 0, None
+        while (header := read_header(source)) is not None:
+            if last is not None and header.step <= last:
+                rule = f"frames must rise in time: step {header.step} comes after step {last}"
+                raise InputError(source.path, rule, header.line)
+            last = header.step
+            if number % share[1] == share[0]:
+                frame = _read_frame(source, header, columns)
+                if dt is not None and np.isnan(frame.time):
+                    frame = replace(frame, time=frame.step * dt)
+                yield frame
+            elif (rows := source.skiplines(header.count)) < header.count:
+                raise InputError(source.path, f"the file ends after {rows} of {header.count} rows", source.line)
+            number += 1
+        if number == 0:
+            raise InputError(source.path, "is empty: a dump file must hold at least one frame", 1)
+
+
+def read_dumps(
+    paths: Iterable[str | Path], columns: Collection[str] | None = None, *, dt: float | None = None
+) -> Iterator[Frame]:
+    """The frames of several files in natural order of their names; time and box are checked.
+
+    Parameters
+    ----------
+    paths : iterable of str or Path
+        The files.
+    columns, dt
+        As in :func:`read_file`.
+
+    Yields
+    ------
+    Frame
+    """
+    before: Frame | None = None
+    for path in natural_order(paths):
+        for frame in read_file(path, columns, dt=dt):
+            if before is not None:
+                check_follows(before, frame)
+            before = replace(frame, columns={})
+            yield frame
+
+
+def check_follows(before: Frame, frame: Frame) -> None:
+    """Refuse a frame that is not later than the one before, or lies in another box."""
+    if frame.step <= before.step:
+        rule = f"frames must rise in time: step {frame.step} comes after step {before.step} of {before.path}"
+        raise InputError(frame.path, rule, frame.line)
+    if not frame.box.same_as(before.box):
+        raise InputError(frame.path, f"the box differs from that of {before.path}: all frames need one box", frame.line)

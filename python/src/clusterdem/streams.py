@@ -1,0 +1,129 @@
+"""Lines of a plain, .gz or .zst file, in bulk, with the line number kept."""
+
+from __future__ import annotations
+
+import gzip
+import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import IO, cast
+
+import numpy as np
+import zstandard
+
+from .errors import InputError
+
+CHUNK = 1 << 22
+
+
+class LineSource:
+    """Reads single lines and blocks of lines from a byte stream.
+
+    Parameters
+    ----------
+    stream : binary file
+        Where the bytes come from.
+    path : str
+        Name for messages.
+    """
+
+    def __init__(self, stream: IO[bytes], path: str) -> None:
+        self._stream = stream
+        self._buffer = b""
+        self._at = 0
+        self.path = path
+        self.line = 0
+
+    def _more(self) -> bytes:
+        try:
+            return self._stream.read(CHUNK)
+        except (OSError, EOFError, zlib.error, zstandard.ZstdError) as error:
+            raise InputError(self.path, f"cannot be read to its end: {error}", self.line) from error
+
+    def readline(self) -> bytes:
+        """The next line without its end-of-line bytes; ``b""`` and no advance at the end of the file."""
+        end = self._buffer.find(b"\n", self._at)
+        while end < 0:
+            more = self._more()
+            if not more:
+                end = len(self._buffer)
+                if end == self._at:
+                    return b""
+                break
+            self._buffer, self._at = self._buffer[self._at :] + more, 0
+            end = self._buffer.find(b"\n")
+        line = self._buffer[self._at : end]
+        self._at = min(end + 1, len(self._buffer))
+        self.line += 1
+        return line.rstrip(b"\r")
+
+    def at_end(self) -> bool:
+        """Whether no byte is left."""
+        if self._at == len(self._buffer):
+            self._buffer, self._at = self._more(), 0
+        return not self._buffer
+
+    def readlines(self, count: int) -> bytes:
+        """The next ``count`` lines as one block; fewer if the file ends before."""
+        pieces: list[bytes] = []
+        while count > 0 and not self.at_end():
+            piece = self._buffer[self._at :] if self._at else self._buffer
+            found = piece.count(b"\n")
+            if found < count:
+                self._at = len(self._buffer)
+            else:
+                ends = np.flatnonzero(np.frombuffer(piece, np.uint8) == 10)
+                size = int(ends[count - 1]) + 1
+                piece, found = piece[:size], count
+                self._at += size
+            pieces.append(piece)
+            count -= found
+            self.line += found
+        block = b"".join(pieces)
+        if block and not block.endswith(b"\n"):
+            self.line += 1
+        return block
+
+    def skiplines(self, count: int) -> int:
+        """Pass over ``count`` lines without keeping them; returns how many there were."""
+        start = self.line
+        while count > self.line - start and not self.at_end():
+            self.readlines(min(count - (self.line - start), 1 << 15))
+        return self.line - start
+
+
+@contextmanager
+def open_lines(path: str | Path) -> Iterator[LineSource]:
+    """Open a file for reading by lines; .gz and .zst are told by their first bytes.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+
+    Yields
+    ------
+    LineSource
+    """
+    name = str(path)
+    try:
+        raw = open(path, "rb")
+    except IsADirectoryError as error:
+        raise InputError(name, "is a directory, not a dump file") from error
+    except (OSError, ValueError) as error:
+        raise InputError(name, f"cannot be opened: {getattr(error, 'strerror', None) or error}") from error
+    with raw:
+        try:
+            magic = raw.read(4)
+            raw.seek(0)
+        except OSError as error:
+            raise InputError(name, f"cannot be read: {error.strerror}") from error
+        if magic[:2] == b"\x1f\x8b":
+            stream: IO[bytes] = cast(IO[bytes], gzip.GzipFile(fileobj=raw))
+        elif magic == b"\x28\xb5\x2f\xfd":
+            reader = zstandard.ZstdDecompressor().stream_reader(raw, read_across_frames=True)
+            stream = cast(IO[bytes], reader)
+        else:
+            stream = raw
+        yield LineSource(stream, name)
