@@ -1,0 +1,157 @@
+# The engine: our own build of LAMMPS in the cache, or the user's.
+# Either way LAMMPS_SOURCE_DIR (the folder with version.h) and LAMMPS_EXE are set afterwards.
+# shellcheck shell=bash
+
+lammps_oldest=20250204
+lammps_tarball=lammps_20250204+dfsg.1.orig.tar.xz   # 4 Feb 2025, in Debian 13
+lammps_sha256=3671165bd52fad36734e0a9136c5bc5ecb225e03988f8c89aa13366a8b53b1c7
+downloads=$cache/downloads
+
+lammps_options=(
+  -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O3 -march=native -DNDEBUG" -DCMAKE_TUNE_FLAGS=
+  -DPKG_GRANULAR=on -DPKG_PLUGIN=on -DBUILD_MPI=on -DBUILD_OMP=off
+  -DWITH_JPEG=off -DWITH_PNG=off -DWITH_FFMPEG=off -DWITH_GZIP=off -DDOWNLOAD_POTENTIALS=off
+)
+
+# use_lammps pinned|newest
+use_lammps() {
+  if [[ ${LAMMPS_SOURCE_DIR:-}${LAMMPS_EXE:-} ]]; then
+    check_own_lammps
+    return
+  fi
+  local suite=trixie tarball=$lammps_tarball home
+  if [[ $1 == newest ]]; then
+    suite=sid
+    tarball=$(newest_tarball)
+  fi
+  # Whatever changes the executable is in the key: version, options, compiler, what `native` is, MPI.
+  home=$cache/lammps/${tarball%.orig*}-$({
+    echo "$tarball ${lammps_options[*]} ${CXX:-c++} ${CXXFLAGS:-} ${LDFLAGS:-}"
+    "${CXX:-c++}" -march=native -O3 -dM -E -x c++ /dev/null
+    mpicxx -show
+    mpirun --version
+  } 2>&1 | checksum)
+  [[ -d $home ]] || with_lock "$home.lock" build_lammps "$suite" "$tarball" "$home"
+  LAMMPS_SOURCE_DIR=$home/src LAMMPS_EXE=$home/lmp
+}
+
+# The newest LAMMPS of Debian's unstable suite; asked again after a week.
+newest_tarball() {
+  local found
+  found=$(find "$downloads/sid" -name 'lammps_*.orig.tar.*' -mtime -7 2>/dev/null | sort | tail -n 1)
+  if [[ $found ]]; then
+    basename "$found"
+  else
+    need_space "$cache" 1000 "the source of LAMMPS"
+    say "fetching the newest LAMMPS of Debian sid"
+    debian_source sid lammps "$downloads/sid"
+  fi
+}
+
+# Present and whole, or fetched now.
+fetch_lammps() {
+  local suite=$1 tarball=$2 folder=$downloads/$1
+  if [[ -e $folder/$tarball ]]; then
+    tarball_whole "$folder/$tarball" && return
+    say "$folder/$tarball was corrupt: deleted."
+  fi
+  say "fetching LAMMPS ($tarball)"
+  [[ $(debian_source "$suite" lammps "$folder") == "$tarball" ]] || die \
+    "Debian $suite holds another version of LAMMPS than $tarball." \
+    "Give your own LAMMPS: LAMMPS_SOURCE_DIR=/path/lammps LAMMPS_EXE=/path/lmp ./run setup"
+  tarball_whole "$folder/$tarball" || die \
+    "the fetched $tarball has a wrong SHA-256 and was deleted." "Try again: ./run setup"
+}
+
+# A corrupt tarball is deleted. The pinned one has its checksum above; of any other apt checked the
+# checksum when it came, and its own compression tells whether it still is what came.
+tarball_whole() {
+  case $1 in
+    */"$lammps_tarball") [[ $(sha256sum <"$1") == "$lammps_sha256 "* ]] ;;
+    *.xz) xz -t "$1" 2>/dev/null ;;
+    *) gzip -t "$1" 2>/dev/null ;;
+  esac && return
+  rm -f "$1"
+  return 1
+}
+
+# Built beside its place and renamed when finished: the folder's presence is the stamp.
+# An interrupted build goes on from where it stopped.
+build_lammps() {
+  local suite=$1 tarball=$2 home=$3 part=$3.part log=$3.log skip
+  [[ ! -d $home ]] || return 0
+  need_space "$cache" 1500 "the build of LAMMPS"
+  if [[ ! -e $part/extracted ]]; then
+    fetch_lammps "$suite" "$tarball"
+    rm -rf "$part"
+    make_folder "$part/source"
+    local skipped=()
+    for skip in doc examples bench potentials unittest fortran tools lib python; do
+      skipped+=("--exclude=$skip" "--exclude=*/$skip")
+    done
+    tar -xf "$downloads/$suite/$tarball" -C "$part/source" \
+      --anchored --no-wildcards-match-slash "${skipped[@]}" 2>"$log" ||
+      die_with_log "$log" "cannot unpack $tarball. Disk full? If not, delete $downloads/$suite and try again."
+    touch "$part/extracted"
+  fi
+  local version_h
+  version_h=$(find "$part/source" -maxdepth 3 -path '*/src/version.h')
+  say "building LAMMPS $(lammps_date "$version_h") (once; 10 to 20 minutes on two cores)"
+  cmake -S "${version_h%/src/version.h}/cmake" -B "$part/build" -G Ninja "${lammps_options[@]}" \
+    >"$log" 2>&1 </dev/null || die_with_log "$log" "LAMMPS could not be configured."
+  nice cmake --build "$part/build" --target lmp 2>&1 </dev/null | tee -a "$log" | show_progress ||
+    die_with_log "$log" "LAMMPS could not be built. Type ./run setup again to go on from here."
+  mv "$part/build/lmp" "$part/lmp"
+  mv "$(dirname "$version_h")" "$part/src"
+  mv "$log" "$part/build.log"
+  rm -rf "$part/source" "$part/build" "$part/extracted"
+  mv "$part" "$home"
+}
+
+# `[n/N] …` lines become a counter on a terminal, a line every tenth elsewhere.
+show_progress() {
+  local line tenth=0
+  while IFS= read -r line; do
+    [[ $line =~ ^\[([0-9]+)/([0-9]+)\] ]] || continue
+    local n=${BASH_REMATCH[1]} all=${BASH_REMATCH[2]}
+    if [[ -t 2 ]]; then
+      printf '\r  %d of %d files' "$n" "$all" >&2
+    elif ((n * 10 / all > tenth)); then
+      tenth=$((n * 10 / all))
+      say "  $n of $all files"
+    fi
+  done
+  [[ ! -t 2 ]] || echo >&2
+}
+
+# 20250204 from a version.h that says "4 Feb 2025".
+lammps_date() {
+  date -d "$(sed -nE 's/.*LAMMPS_VERSION "([0-9]+ [A-Za-z]+ [0-9]+).*/\1/p' "$1")" +%Y%m%d
+}
+
+# The user's LAMMPS: source and executable must both be there, new enough, and of one version.
+check_own_lammps() {
+  local how="Give both: LAMMPS_SOURCE_DIR=/path/lammps LAMMPS_EXE=/path/lmp ./run setup"
+  [[ ${LAMMPS_SOURCE_DIR:-} ]] || die "LAMMPS_EXE is given but LAMMPS_SOURCE_DIR is not." "$how"
+  [[ ${LAMMPS_EXE:-} ]] || die "LAMMPS_SOURCE_DIR is given but LAMMPS_EXE is not." "$how"
+  local source=$LAMMPS_SOURCE_DIR exe help date engine
+  [[ -e $source/version.h ]] || source=$source/src
+  [[ -e $source/version.h ]] || die "LAMMPS_SOURCE_DIR=$LAMMPS_SOURCE_DIR holds neither version.h nor src/version.h." "$how"
+  date=$(lammps_date "$source/version.h")
+  ((date >= lammps_oldest)) || die "LAMMPS_SOURCE_DIR=$LAMMPS_SOURCE_DIR is LAMMPS of $date; 4 Feb 2025 or later is needed."
+
+  exe=$(command -v "$LAMMPS_EXE") || die "LAMMPS_EXE=$LAMMPS_EXE is not an executable file." "$how"
+  help=$("$exe" -h 2>&1 </dev/null) || die "LAMMPS_EXE=$LAMMPS_EXE does not run: $(tail -n 1 <<<"$help")"
+  engine=$(sed -nE 's/^Large-scale.* - ([0-9]+ [A-Za-z]+ [0-9]+).*/\1/p' <<<"$help")
+  [[ $engine && $(date -d "$engine" +%Y%m%d) == "$date" ]] || die \
+    "LAMMPS_EXE=$LAMMPS_EXE is version '$engine', LAMMPS_SOURCE_DIR=$LAMMPS_SOURCE_DIR is of $date: they must be one version."
+  local package
+  for package in GRANULAR PLUGIN; do
+    grep -qw "$package" <<<"${help#*Installed packages}" || die \
+      "LAMMPS_EXE=$LAMMPS_EXE has no package $package: build it with -DPKG_GRANULAR=on -DPKG_PLUGIN=on -DBUILD_MPI=on."
+  done
+  ! grep -qi '^MPI.*STUBS' <<<"$help" || die \
+    "LAMMPS_EXE=$LAMMPS_EXE was built without MPI: build it with -DBUILD_MPI=on."
+  LAMMPS_SOURCE_DIR=$(readlink -f "$source")
+  LAMMPS_EXE=$(readlink -f "$exe")
+}
