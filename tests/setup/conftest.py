@@ -10,19 +10,21 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 NOBODY = 65534
+# What a test may take away or replace; everything else of this machine stays on the PATH.
+REMOVABLE = ("apt-get", "sudo", "mpirun", "mpicxx", "cmake", "ninja", "c++", "xz", "df")
 
 
 class Machine:
     """`./run` of a copied checkout, with its own cache and a PATH from which commands can be taken."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, commands: Path) -> None:
         self.folder = folder
         self.cache = folder / "cache" / "clusterdem"
         self.bin = folder / "bin"
         self.environment = {
             "HOME": str(folder),
             "XDG_CACHE_HOME": str(folder / "cache"),
-            "PATH": str(self.bin),
+            "PATH": f"{self.bin}:{commands}",
             "LC_ALL": "C",
         }
         for name in ("run", "setup", "CMakeLists.txt"):
@@ -31,14 +33,8 @@ class Machine:
         (folder / "build" / "venv" / "bin").mkdir(parents=True)
         self.script(folder / "build" / "venv" / "bin" / "python", "exit 0")
         self.bin.mkdir()
-        for source in ("/usr/local/bin", "/usr/sbin", "/usr/bin", "/sbin", "/bin"):
-            for command in Path(source).iterdir() if Path(source).is_dir() else ():
-                link = self.bin / command.name
-                if not link.is_symlink():
-                    link.symlink_to(command)
-        for command in ("mpirun", "mpicxx", "cmake", "ninja", "c++", "xz"):
-            found = shutil.which(command)
-            if found and not (self.bin / command).is_symlink():
+        for command in REMOVABLE:
+            if found := shutil.which(command):
                 (self.bin / command).symlink_to(found)
 
     def without(self, *commands: str) -> "Machine":
@@ -95,9 +91,27 @@ class Machine:
         )
 
 
+def public_folder():
+    """Not pytest's own folder: that one is closed to the unprivileged user of some tests."""
+    folder = tempfile.TemporaryDirectory(prefix="clusterdem-setup-")
+    os.chmod(folder.name, 0o755)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def commands():
+    """A folder of links to this machine's commands, without the removable ones."""
+    found = {}
+    for source in ("/bin", "/sbin", "/usr/bin", "/usr/sbin", "/usr/local/bin"):
+        if os.path.isdir(source):
+            found |= {entry.name: entry.path for entry in os.scandir(source)}
+    with public_folder() as folder:
+        for name in found.keys() - set(REMOVABLE):
+            os.symlink(found[name], f"{folder}/{name}")
+        yield Path(folder)
+
+
 @pytest.fixture
-def machine():
-    # Not pytest's own folder: that one is closed to the unprivileged user of some tests.
-    with tempfile.TemporaryDirectory(prefix="clusterdem-setup-") as folder:
-        os.chmod(folder, 0o755)
-        yield Machine(Path(folder))
+def machine(commands):
+    with public_folder() as folder:
+        yield Machine(Path(folder), commands)
