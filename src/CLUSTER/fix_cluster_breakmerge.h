@@ -1,0 +1,182 @@
+/* ----------------------------------------------------------------------
+   Cluster DEM for LAMMPS. Distributed under the GNU General Public License, version 2 or later.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(cluster/breakmerge,FixClusterBreakMerge);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_CLUSTER_BREAKMERGE_H
+#define LMP_FIX_CLUSTER_BREAKMERGE_H
+
+#include "fix.h"
+
+#include "granular_pairs.h"
+#include "model/merging.h"
+#include "model/placement.h"
+#include "model/size_law.h"
+#include "newborn_tags.h"
+
+#include <memory>
+
+namespace LAMMPS_NS {
+class CellAverages;
+class FixDragCluster;
+class StyleArguments;
+
+class FixClusterBreakMerge : public Fix {
+ public:
+  FixClusterBreakMerge(class LAMMPS *, int, char **);
+  ~FixClusterBreakMerge() override;
+  int setmask() override;
+  void init() override;
+  void setup_pre_exchange() override;
+  void setup(int) override;
+  void post_integrate() override;
+  void pre_exchange() override;
+  void reset_grid() override;
+
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+  int pack_restart(int, double *) override;
+  void unpack_restart(int, int) override;
+  int size_restart(int) override;
+  int maxsize_restart() override;
+
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+  int pack_reverse_comm_size(int, int) override;
+  int pack_reverse_comm(int, int, double *) override;
+  void unpack_reverse_comm(int, int *, double *) override;
+  void pack_forward_grid(int, void *, int, int *) override;
+  void unpack_forward_grid(int, void *, int, int *) override;
+  void pack_reverse_grid(int, void *, int, int *) override;
+  void unpack_reverse_grid(int, void *, int, int *) override;
+
+  double compute_vector(int) override;
+  double memory_usage() override;
+
+  const ClusterDEM::ClusterGeometry &cluster_geometry() const { return geometry; }
+
+ private:
+  // ---- settings
+  ClusterDEM::ClusterGeometry geometry;
+  ClusterDEM::SizeLimits limits;
+  std::string drag_id;
+  bool k_given, k_from_emms;
+  double k_value;    // K, or U_p of K emms
+  double umf_value;
+  bool umf_from_wen_yu;
+  double eps_mf;
+  bool cells_given;
+  int cells[3];
+  ClusterDEM::NstReading nst;
+  ClusterDEM::NsmfReading nsmf;
+  ClusterDEM::UpReading up;
+  double ncc_factor;
+  bool term_st, term_cc, term_mf;
+  enum { ALWAYS, IN_CONTACT, CONTACT_ENDED } test;
+  double hysteresis;
+  bool breaking, merging, break_refused;
+  double merge_tolerance;
+  double gravity;
+  int gravity_axis;
+  double claim_max;
+  bool planar;    // fragments placed in the xz plane
+  double spacing;
+
+  // ---- what init() finds or derives
+  double k, u_mf;
+  FixDragCluster *drag;
+  GranularPairs pairs;
+  std::unique_ptr<CellAverages> averages;
+  std::unique_ptr<ClusterDEM::Lattice> lattice;
+
+  // ---- per cluster; columns of array_atom: n d l N_st N_cc N_smf
+  int *count;                                   // primary particles; 0: not yet known
+  std::vector<std::vector<tagint>> partners;    // in contact at the last test (test end only)
+
+  // ---- of one check, owned and ghost clusters
+  int nmax_check;
+  int *stable;                                   // n_l; negative once the cluster is to break
+  double *power;                                 // sum of F_ij . dU_ij
+  int *ncontacts;
+  struct Suitor {                                // best partner to merge with
+    double slip;                                 // |dV| / min |V|
+    double stiffness;                            // of their contact
+    tagint tag;                                  // 0: none
+    bool better_than(const Suitor &other) const
+    {
+      return slip < other.slip || (slip == other.slip && tag < other.tag);
+    }
+  } *suitor;
+  double **room;                                 // claim: radius, centre relative to the cluster
+  int *proceeds;
+  std::vector<std::vector<tagint>> touching_tags;
+  enum { CONTACTS, TAGS, SIZES, SUITORS, PARTNERS, CLAIMS, VERDICTS } comm_stage;
+
+  // One break, or one merge; a refused merge that breaks is both. Led by owned cluster i.
+  struct Event {
+    int i, j = -1;    // j < 0: no partner
+    ClusterDEM::BreakPlan plan;
+    ClusterDEM::Placement placement;
+    ClusterDEM::Body body;            // parent, or both combined
+    ClusterDEM::Vec3 omega;           // of the merged cluster
+    double stiffness = 0.0;           // of the merging contact
+    double energy_lost = 0.0;         // kinetic energy that the merge takes out
+    double energy_born = 0.0;         // elastic energy that the merged cluster puts in
+    double reach = 0.0;               // how far to look for others
+  };
+  std::vector<Event> events;
+  std::vector<int> dying;    // owned partners of proceeding merges
+
+  // ---- totals since the fix was defined, on this rank
+  enum { BREAKUPS, MERGES, BORN, DEFERRED, E_LOST, E_BORN, NTOTALS };
+  double totals[NTOTALS];
+  NewbornTags newborn_tags;
+  double output[11];
+  bigint output_step;
+
+  void parse(StyleArguments &);
+  void parse_terms(StyleArguments &);
+  void find_drag();
+  void check_order();
+  void check_room();
+
+  // fix_cluster_breakmerge_check.cpp: what holds now
+  int particle_count(int i);
+  void size_scratch();
+  void measure();
+  void add_up_contacts();
+  void average_cells();
+  void find_stable_sizes();
+  bool contact_ended(int i);
+  void exchange(int stage, int size);
+
+  // fix_cluster_breakmerge_decide.cpp: which events happen
+  void propose_breaks();
+  void propose_merges();
+  void choose_suitors();
+  void make_room();
+  void place(Event &, const std::vector<ClusterDEM::Obstacle> &);
+  void arbitrate();
+  void mark_dying();
+  ClusterDEM::Body body_of(int i) const;
+
+  // fix_cluster_breakmerge_apply.cpp: the events themselves
+  void become(int i, int n, const ClusterDEM::Vec3 &x, const ClusterDEM::Vec3 &v);
+  void create_fragments(const Event &, tagint first);
+  void delete_dying();
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,206 @@
+/* ----------------------------------------------------------------------
+   Cluster DEM for LAMMPS. Distributed under the GNU General Public License, version 2 or later.
+------------------------------------------------------------------------- */
+
+// What holds at a check: particle counts, contacts and their power, E_in* and the stable size.
+
+#include "fix_cluster_breakmerge.h"
+
+#include "cell_averages.h"
+#include "fix_drag_cluster.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "memory.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+using namespace ClusterDEM;
+
+/* ----------------------------------------------------------------------
+   whole number of particles of an owned cluster, from its mass when it is first asked for
+------------------------------------------------------------------------- */
+
+int FixClusterBreakMerge::particle_count(int i)
+{
+  if (count[i]) return count[i];
+  const auto n = geometry.count_from_mass(atom->rmass[i]);
+  const double d = geometry.diameter(n.whole ? n.n : n.exact);
+  const bool right_size = std::fabs(2.0 * atom->radius[i] - d) <= 1.0e-6 * d;
+  if (!n.whole || !right_size) {
+    const int nearest = MAX(1, static_cast<int>(std::lround(n.exact)));
+    error->one(FLERR,
+               "Fix {} {}: cluster {} has diameter {:.10g} and mass {:.10g}, which is {:.2f} primary particles; "
+               "it must hold a whole number (within 1e-6) at voidage {}: {} particles need diameter {:.10g} "
+               "and density {:.10g}",
+               style, id, atom->tag[i], 2.0 * atom->radius[i], atom->rmass[i], n.exact, geometry.voidage,
+               nearest, geometry.diameter(nearest), geometry.rho_p * (1.0 - geometry.voidage));
+  }
+  count[i] = n.n;
+  array_atom[i][0] = n.n;
+  array_atom[i][1] = d;
+  return n.n;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixClusterBreakMerge::size_scratch()
+{
+  if (nmax_check >= atom->nmax) return;
+  nmax_check = atom->nmax;
+  memory->destroy(stable);
+  memory->destroy(power);
+  memory->destroy(ncontacts);
+  memory->sfree(suitor);
+  memory->destroy(room);
+  memory->destroy(proceeds);
+  memory->create(stable, nmax_check, "cluster/breakmerge:stable");
+  memory->create(power, nmax_check, "cluster/breakmerge:power");
+  memory->create(ncontacts, nmax_check, "cluster/breakmerge:ncontacts");
+  suitor = (Suitor *) memory->smalloc(nmax_check * sizeof(Suitor), "cluster/breakmerge:suitor");
+  memory->create(room, nmax_check, 4, "cluster/breakmerge:room");
+  memory->create(proceeds, nmax_check, "cluster/breakmerge:proceeds");
+}
+
+/* ----------------------------------------------------------------------
+   l of every owned cluster, and what it is made of
+------------------------------------------------------------------------- */
+
+void FixClusterBreakMerge::measure()
+{
+  size_scratch();
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit) particle_count(i);
+  add_up_contacts();
+  if (drag) drag->prepare();
+  if (averages) average_cells();
+  find_stable_sizes();
+}
+
+/* ----------------------------------------------------------------------
+   power of the contact forces and number of contacts; with newton on, half of the pairs across ranks
+   are known to the other side alone
+------------------------------------------------------------------------- */
+
+void FixClusterBreakMerge::add_up_contacts()
+{
+  const int nlocal = atom->nlocal;
+  const int nall = nlocal + atom->nghost;
+  const bool want_power = term_cc && ncc_factor > 0.0;
+  const bool want_tags = test == CONTACT_ENDED;
+  double **v = atom->v;
+
+  std::fill(power, power + nall, 0.0);
+  std::fill(ncontacts, ncontacts + nall, 0);
+  if (want_tags) {
+    touching_tags.resize(MAX(static_cast<std::size_t>(nall), touching_tags.size()));
+    for (int i = 0; i < nall; i++) touching_tags[i].clear();
+  }
+
+  pairs.find_contacts();
+  for (const auto &contact : pairs.contacts()) {
+    const int i = contact.i, j = contact.j;
+    // F_ij . (V_i - V_j), the same for both
+    const double p = want_power ? dot(pairs.contact_force(contact), to_vec3(v[i]) - to_vec3(v[j])) : 0.0;
+    const bool both = force->newton_pair || j < nlocal;
+    power[i] += p;
+    ncontacts[i]++;
+    if (want_tags) touching_tags[i].push_back(atom->tag[j]);
+    if (both) {
+      power[j] += p;
+      ncontacts[j]++;
+      if (want_tags) touching_tags[j].push_back(atom->tag[i]);
+    }
+  }
+  if (!force->newton_pair) return;
+  exchange(CONTACTS, 2);
+  if (want_tags) {
+    comm_stage = TAGS;
+    comm->reverse_comm_variable(this);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixClusterBreakMerge::average_cells()
+{
+  averages->clear();
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const double *x = atom->x[i];
+    const Vec3 v = to_vec3(atom->v[i]);
+    averages->add(x, CellAverages::MASS, atom->rmass[i]);
+    averages->add(x, CellAverages::MASS_SPEED, atom->rmass[i] * std::fabs(v[gravity_axis]));
+    if (drag) {
+      const Vec3 u = drag->gas_velocity(i);
+      const Vec3 slip = drag->in_plane(u - v);
+      averages->add(x, CellAverages::DRAG_POWER, dot(drag->cluster_coefficient(i, norm(slip)) * slip, u));
+    }
+  }
+  averages->sum();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixClusterBreakMerge::find_stable_sizes()
+{
+  const double particle_mass = geometry.particle_mass();
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) {
+      stable[i] = 0;
+      continue;
+    }
+    const double *x = atom->x[i];
+    const Vec3 v = to_vec3(atom->v[i]);
+    double gas = 0.0, contacts = 0.0, fluidization = 0.0;
+
+    if (term_st && nst == NstReading::CELL)
+      gas = averages->total(x, CellAverages::DRAG_POWER) / averages->total(x, CellAverages::MASS);
+    else if (term_st) {
+      const Vec3 u = drag->gas_velocity(i);
+      const Vec3 slip = drag->in_plane(u - v);
+      const double speed = norm(slip);
+      const bool single = nst == NstReading::PARTICLE;
+      const double b = single
+          ? drag_coefficient(drag->drag_law(), drag->gas_properties(), geometry.d_p, speed)
+          : drag->cluster_coefficient(i, speed);
+      gas = n_st(b * slip, u, single ? particle_mass : atom->rmass[i]);
+    }
+    if (term_cc) contacts = n_cc(power[i], atom->rmass[i], ncc_factor);
+    if (term_mf) {
+      double speed = std::fabs(v[gravity_axis]);
+      if (up != UpReading::OWN) {
+        const double mass = averages->total(x, CellAverages::MASS);
+        speed = averages->total(x, CellAverages::MASS_SPEED) / mass;
+        if (up == UpReading::SUPERFICIAL) speed *= mass / (geometry.rho_p * averages->cell_volume());
+      }
+      fluidization = n_smf(nsmf, u_mf, speed, eps_mf, gravity);
+    }
+
+    const StableSize size = stable_size(k, gas + contacts - fluidization, geometry, limits);
+    stable[i] = size.n;
+    double *row = array_atom[i];
+    row[2] = size.l;
+    row[3] = gas;
+    row[4] = contacts;
+    row[5] = fluidization;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   has any contact of the last test ended? The contacts of now are kept for the next one.
+------------------------------------------------------------------------- */
+
+bool FixClusterBreakMerge::contact_ended(int i)
+{
+  std::vector<tagint> &now = touching_tags[i];
+  std::sort(now.begin(), now.end());
+  now.erase(std::unique(now.begin(), now.end()), now.end());
+  const bool ended = !std::includes(now.begin(), now.end(), partners[i].begin(), partners[i].end());
+  partners[i] = now;
+  return ended;
+}

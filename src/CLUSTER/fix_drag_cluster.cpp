@@ -1,0 +1,496 @@
+/* ----------------------------------------------------------------------
+   Cluster DEM for LAMMPS. Distributed under the GNU General Public License, version 2 or later.
+------------------------------------------------------------------------- */
+
+#include "fix_drag_cluster.h"
+
+#include "fix_cluster_breakmerge.h"
+#include "style_arguments.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "input.h"
+#include "memory.h"
+#include "modify.h"
+#include "text_file_reader.h"
+#include "update.h"
+#include "variable.h"
+
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using namespace ClusterDEM;
+
+static constexpr int COLUMNS = 8;    // gas velocity, drag force, Re, tau
+
+/* ---------------------------------------------------------------------- */
+
+FixDragCluster::FixDragCluster(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), law(std::make_unique<TranCongDrag>(0.8, 1.1)), velocity_atom(nullptr),
+    nmax_velocity(0), profile_axis(-1), fluctuation(NO_FLUCTUATION), amplitude{0.0, 0.0, 0.0},
+    cells{1, 1, 1}, period(0.0), seed(0), period_now(0), draw(nullptr),
+    acts_along{true, true, true}, unshielded(0.0), particle_d(0.0), particle_mass(0.0),
+    particle_given(false), exponential(false), peratom_rows(0), totals{}, totals_all{}, totals_current(false)
+{
+  dynamic_group_allow = 1;
+  vector_flag = 1;
+  size_vector = 4;
+  global_freq = 1;
+  extvector = 1;
+  peratom_flag = 1;
+  size_peratom_cols = COLUMNS;
+  peratom_freq = 1;
+  time_depend = 1;    // the fluctuation depends on the elapsed time
+
+  if (!atom->radius_flag || !atom->rmass_flag)
+    error->all(FLERR, "Fix {} requires atom style sphere: clusters have a diameter and a mass", style);
+
+  StyleArguments args(lmp, narg, arg, 3);
+  gas.rho = args.positive("rho_g", "mass/volume");
+  gas.nu = args.positive("nu_g", "length^2/time");
+
+  while (args.more()) {
+    const std::string keyword = args.word("keyword");
+    if (keyword == "velocity") parse_velocity(args);
+    else if (keyword == "profile") parse_profile(args);
+    else if (keyword == "fluctuation") parse_fluctuation(args);
+    else if (keyword == "law") parse_law(args);
+    else if (keyword == "plane") parse_plane(args);
+    else if (keyword == "unshielded") unshielded = args.within(keyword, 0.0, 1.0);
+    else if (keyword == "particle") {
+      particle_d = args.positive("particle d_p", "length");
+      const double rho_p = args.positive("particle rho_p", "mass/volume");
+      particle_mass = ClusterGeometry{particle_d, rho_p}.particle_mass();
+      particle_given = true;
+    } else if (keyword == "integrator")
+      exponential = args.choice(keyword, {"explicit", "exponential"}) == 1;
+    else
+      args.unknown_keyword();
+  }
+
+  if (fluctuation == OWN) {
+    if (!atom->tag_enable) error->all(FLERR, "Fix {} fluctuation own requires atom IDs", style);
+    restart_peratom = 1;
+    create_attribute = 1;
+    maxexchange = 1;
+    FixDragCluster::grow_arrays(atom->nmax);
+    for (int i = 0; i < atom->nlocal; i++) draw[i] = 0;
+    atom->add_callback(Atom::GROW);
+    atom->add_callback(Atom::RESTART);
+  }
+
+  peratom_rows = MAX(1, atom->nmax);
+  memory->create(array_atom, peratom_rows, COLUMNS, "drag/cluster:array_atom");
+  memset(&array_atom[0][0], 0, sizeof(double) * COLUMNS * peratom_rows);
+}
+
+/* ---------------------------------------------------------------------- */
+
+FixDragCluster::~FixDragCluster()
+{
+  if (draw) {
+    atom->delete_callback(id, Atom::GROW);
+    atom->delete_callback(id, Atom::RESTART);
+  }
+  memory->destroy(draw);
+  memory->destroy(velocity_atom);
+  memory->destroy(array_atom);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixDragCluster::parse_velocity(StyleArguments &args)
+{
+  const char *names[3] = {"velocity ux", "velocity uy", "velocity uz"};
+  for (int k = 0; k < 3; k++) {
+    velocity[k] = Component();
+    if (args.more() && args.peek().rfind("v_", 0) == 0) velocity[k].variable = args.word(names[k]).substr(2);
+    else velocity[k].value = args.number(names[k], "a finite number or v_name [velocity]");
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixDragCluster::parse_fluctuation(StyleArguments &args)
+{
+  for (double &a : amplitude) {
+    a = args.number("fluctuation amplitude", "a number >= 0 [velocity]");
+    if (a < 0.0) args.refuse("fluctuation amplitude", "a number >= 0 [velocity]");
+  }
+  fluctuation = args.choice("fluctuation", {"cell", "own"}) == 0 ? PER_CELL : OWN;
+  if (fluctuation == PER_CELL)
+    for (int &n : cells) n = args.integer("fluctuation cell count", 1);
+  if (args.next_is("frozen")) {
+    args.word("PERIOD");
+    period = 0.0;
+  } else {
+    period = args.number("fluctuation PERIOD", "frozen or a time > 0");
+    if (!(period > 0.0)) args.refuse("fluctuation PERIOD", "frozen or a time > 0");
+  }
+  seed = args.integer("fluctuation SEED", 1);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixDragCluster::parse_law(StyleArguments &args)
+{
+  const std::string name = args.word("law NAME");
+  std::string known;
+  for (const auto &entry : drag_laws()) {
+    known += (known.empty() ? "" : " | ") + std::string(entry.name);
+    if (name != entry.name) continue;
+    std::vector<double> values;
+    for (const auto &parameter : entry.parameters) {
+      const std::string what = fmt::format("law {} {}", name, parameter.name);
+      const std::string rule = fmt::format("a number > {} and <= {}", parameter.lo, parameter.hi);
+      const double x = args.number(what, rule);
+      if (!(x > parameter.lo && x <= parameter.hi)) args.refuse(what, rule);
+      values.push_back(x);
+    }
+    law = entry.make(values.data());
+    return;
+  }
+  args.refuse("law", known);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixDragCluster::parse_plane(StyleArguments &args)
+{
+  const int left_out = 2 - args.choice("plane", {"xy", "xz", "yz"});
+  for (int k = 0; k < 3; k++) acts_along[k] = k != left_out;
+}
+
+/* ----------------------------------------------------------------------
+   columns: position along the axis, ux, uy, uz; # starts a comment
+------------------------------------------------------------------------- */
+
+void FixDragCluster::parse_profile(StyleArguments &args)
+{
+  const std::string file = args.word("profile FILE");
+  profile_axis = args.choice("profile axis", {"x", "y", "z"});
+
+  std::vector<double> rows;
+  if (comm->me == 0) {
+    int line = 0;
+    try {
+      TextFileReader reader(file, "gas profile");
+      while (char *text = reader.next_line()) {
+        line++;
+        ValueTokenizer values(text);
+        if (values.count() != 4)
+          throw TokenizerException("a row needs 4 numbers: position ux uy uz", text);
+        for (int k = 0; k < 4; k++) {
+          const double x = values.next_double();
+          if (!std::isfinite(x)) throw TokenizerException("a value is not finite", text);
+          rows.push_back(x);
+        }
+        const std::size_t n = rows.size();
+        if (n >= 8 && !(rows[n - 4] > rows[n - 8]))
+          throw TokenizerException("positions must ascend", text);
+      }
+    } catch (std::exception &e) {
+      error->one(FLERR, "Fix {}: cannot use gas profile {}, data row {}: {}", style, file, line, e.what());
+    }
+    if (rows.empty()) error->one(FLERR, "Fix {}: gas profile {} has no data row", style, file);
+  }
+  int n = static_cast<int>(rows.size());
+  MPI_Bcast(&n, 1, MPI_INT, 0, world);
+  rows.resize(n);
+  MPI_Bcast(rows.data(), n, MPI_DOUBLE, 0, world);
+  profile = GasProfile();
+  for (int k = 0; k < n; k += 4) {
+    profile.s.push_back(rows[k]);
+    profile.u.push_back({rows[k + 1], rows[k + 2], rows[k + 3]});
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixDragCluster::setmask()
+{
+  return POST_FORCE;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixDragCluster::init()
+{
+  if (!atom->radius_flag || !atom->rmass_flag)
+    error->all(FLERR, "Fix {} {} requires atom style sphere", style, id);
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Fix {} {} does not support run_style respa: use run_style verlet", style, id);
+
+  for (auto &component : velocity) {
+    if (component.variable.empty()) continue;
+    component.index = input->variable->find(component.variable.c_str());
+    if (component.index < 0)
+      error->all(FLERR, "Variable {} for fix {} {} does not exist", component.variable, style, id);
+    component.per_atom = input->variable->atomstyle(component.index);
+    if (!component.per_atom && !input->variable->equalstyle(component.index))
+      error->all(FLERR, "Variable {} for fix {} {} must be equal-style or atom-style",
+                 component.variable, style, id);
+  }
+  if (unshielded > 0.0) find_primary_particle();
+}
+
+/* ----------------------------------------------------------------------
+   unshielded drag counts primary particles: given by keyword, or as the size law has them
+------------------------------------------------------------------------- */
+
+void FixDragCluster::find_primary_particle()
+{
+  if (particle_given) return;
+  const auto fixes = modify->get_fix_by_style("^cluster/breakmerge");
+  if (fixes.empty())
+    error->all(FLERR,
+               "Fix {} {}: unshielded {} needs the primary particle: define a fix cluster/breakmerge "
+               "or give the keyword particle d_p rho_p", style, id, unshielded);
+  const auto &geometry = dynamic_cast<FixClusterBreakMerge *>(fixes[0])->cluster_geometry();
+  particle_d = geometry.d_p;
+  particle_mass = geometry.particle_mass();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixDragCluster::setup(int vflag)
+{
+  post_force(vflag);
+}
+
+/* ----------------------------------------------------------------------
+   evaluate variables and the period of the fluctuation, once per step
+------------------------------------------------------------------------- */
+
+void FixDragCluster::prepare()
+{
+  const double t = update->atime + (update->ntimestep - update->atimestep) * update->dt;
+  period_now = period_index(t, period);
+  if (static_cast<int>(cache.size()) < atom->nmax) cache.resize(atom->nmax);
+
+  bool any = false;
+  for (const auto &component : velocity) any = any || component.index >= 0;
+  if (!any) return;
+
+  modify->clearstep_compute();
+  for (int k = 0; k < 3; k++) {
+    auto &component = velocity[k];
+    if (component.index < 0) continue;
+    if (component.per_atom) {
+      if (atom->nmax > nmax_velocity) {
+        nmax_velocity = atom->nmax;
+        memory->destroy(velocity_atom);
+        memory->create(velocity_atom, nmax_velocity, 3, "drag/cluster:velocity_atom");
+      }
+      input->variable->compute_atom(component.index, igroup, &velocity_atom[0][k], 3, 0);
+    } else {
+      component.value = input->variable->compute_equal(component.index);
+      if (!std::isfinite(component.value))
+        error->all(FLERR, "Fix {} {}: variable {} gave {} at step {}: the gas velocity must be finite",
+                   style, id, component.variable, component.value, update->ntimestep);
+    }
+  }
+  modify->addstep_compute(update->ntimestep + 1);
+}
+
+/* ----------------------------------------------------------------------
+   gas velocity that owned cluster i sees: mean + profile + fluctuation
+------------------------------------------------------------------------- */
+
+Vec3 FixDragCluster::gas_velocity(int i)
+{
+  Vec3 u;
+  for (int k = 0; k < 3; k++) u[k] = velocity[k].per_atom ? velocity_atom[i][k] : velocity[k].value;
+  if (profile_axis >= 0) {
+    double s = atom->x[i][profile_axis];
+    if (domain->periodicity[profile_axis]) {    // a cluster may be just outside until it is wrapped
+      if (s < domain->boxlo[profile_axis]) s += domain->prd[profile_axis];
+      else if (s >= domain->boxhi[profile_axis]) s -= domain->prd[profile_axis];
+    }
+    u = u + profile.at(s);
+  }
+  if (fluctuation != NO_FLUCTUATION) u = u + fluctuation_of(i);
+  return u;
+}
+
+/* ---------------------------------------------------------------------- */
+
+Vec3 FixDragCluster::fluctuation_of(int i)
+{
+  CachedFluctuation &cached = cache[i];
+  int64_t a, b = 0;
+  if (fluctuation == PER_CELL) {
+    const double *x = atom->x[i];
+    a = 0;
+    for (int k = 2; k >= 0; k--)
+      a = a * cells[k] + cell_index(x[k], domain->boxlo[k], domain->boxhi[k], cells[k]);
+  } else {
+    a = atom->tag[i];
+    b = draw[i];
+  }
+  if (cached.a != a || cached.b != b || cached.period != period_now) {
+    const Vec3 u = fluctuation == PER_CELL ? cell_fluctuation(seed, a, period_now)
+                                           : own_fluctuation(seed, a, b, period_now);
+    cached.a = a;
+    cached.b = b;
+    cached.period = period_now;
+    for (int k = 0; k < 3; k++) cached.u[k] = amplitude[k] * u[k];
+  }
+  return cached.u;
+}
+
+/* ----------------------------------------------------------------------
+   drag on owned cluster i is this coefficient times its slip
+------------------------------------------------------------------------- */
+
+double FixDragCluster::cluster_coefficient(int i, double slip_speed) const
+{
+  const double n = unshielded > 0.0 ? atom->rmass[i] / particle_mass : 0.0;
+  return cluster_drag_coefficient(*law, gas, 2.0 * atom->radius[i], particle_d, n, unshielded,
+                                  slip_speed);
+}
+
+Vec3 FixDragCluster::in_plane(const Vec3 &force) const
+{
+  return {acts_along[0] ? force[0] : 0.0, acts_along[1] ? force[1] : 0.0,
+          acts_along[2] ? force[2] : 0.0};
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixDragCluster::post_force(int)
+{
+  double **v = atom->v;
+  double **f = atom->f;
+  const double *radius = atom->radius;
+  const double *rmass = atom->rmass;
+  const int *mask = atom->mask;
+  const int nlocal = atom->nlocal;
+  const double dt = update->dt;
+
+  prepare();
+  if (peratom_rows < atom->nmax) {
+    peratom_rows = atom->nmax;
+    memory->destroy(array_atom);
+    memory->create(array_atom, peratom_rows, COLUMNS, "drag/cluster:array_atom");
+  }
+  for (double &t : totals) t = 0.0;
+  totals_current = false;
+
+  bool finite = true;
+  for (int i = 0; i < nlocal; i++) {
+    double *row = array_atom[i];
+    if (!(mask[i] & groupbit)) {
+      memset(row, 0, sizeof(double) * COLUMNS);
+      continue;
+    }
+    const Vec3 u = gas_velocity(i);
+    const Vec3 slip = in_plane(u - to_vec3(v[i]));
+    const double speed = norm(slip);
+    const double b = cluster_coefficient(i, speed);
+    const double tau = b > 0.0 ? rmass[i] / b : INFINITY;
+    const Vec3 drag = (exponential ? b * exponential_factor(dt / tau) : b) * slip;
+    finite = finite && std::isfinite(drag[0] + drag[1] + drag[2]);
+
+    for (int k = 0; k < 3; k++) {
+      f[i][k] += drag[k];
+      totals[k] += drag[k];
+      row[k] = u[k];
+      row[3 + k] = drag[k];
+    }
+    totals[3] += dot(drag, to_vec3(v[i]));
+    row[6] = reynolds(speed, 2.0 * radius[i], gas);
+    row[7] = tau;
+  }
+  if (!finite)
+    error->one(FLERR, "Fix {} {}: the drag force is not finite at step {}: check the gas velocity and "
+               "the time step", style, id, update->ntimestep);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixDragCluster::redraw(int i)
+{
+  if (fluctuation == OWN) draw[i]++;
+}
+
+/* ----------------------------------------------------------------------
+   draw number per cluster: migrates, is written to restart files (own fluctuation only)
+------------------------------------------------------------------------- */
+
+void FixDragCluster::grow_arrays(int nmax)
+{
+  memory->grow(draw, nmax, "drag/cluster:draw");
+}
+
+void FixDragCluster::copy_arrays(int i, int j, int)
+{
+  draw[j] = draw[i];
+}
+
+void FixDragCluster::set_arrays(int i)
+{
+  draw[i] = 0;
+}
+
+int FixDragCluster::pack_exchange(int i, double *buf)
+{
+  buf[0] = ubuf(draw[i]).d;
+  return 1;
+}
+
+int FixDragCluster::unpack_exchange(int nlocal, double *buf)
+{
+  draw[nlocal] = static_cast<int>(ubuf(buf[0]).i);
+  return 1;
+}
+
+int FixDragCluster::pack_restart(int i, double *buf)
+{
+  buf[0] = 2;
+  buf[1] = ubuf(draw[i]).d;
+  return 2;
+}
+
+void FixDragCluster::unpack_restart(int nlocal, int nth)
+{
+  double **extra = atom->extra;
+  int m = 0;
+  for (int i = 0; i < nth; i++) m += static_cast<int>(extra[nlocal][m]);
+  draw[nlocal] = static_cast<int>(ubuf(extra[nlocal][m + 1]).i);
+}
+
+int FixDragCluster::size_restart(int)
+{
+  return 2;
+}
+
+int FixDragCluster::maxsize_restart()
+{
+  return 2;
+}
+
+/* ----------------------------------------------------------------------
+   total drag force on the group, and its power
+------------------------------------------------------------------------- */
+
+double FixDragCluster::compute_vector(int n)
+{
+  if (!totals_current) {
+    MPI_Allreduce(totals, totals_all, 4, MPI_DOUBLE, MPI_SUM, world);
+    totals_current = true;
+  }
+  return totals_all[n];
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixDragCluster::memory_usage()
+{
+  return (double) peratom_rows * COLUMNS * sizeof(double) + (double) cache.size() * sizeof(CachedFluctuation) +
+      (double) nmax_velocity * 3 * sizeof(double) + (draw ? (double) atom->nmax * sizeof(int) : 0.0);
+}

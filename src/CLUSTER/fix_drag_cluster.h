@@ -1,0 +1,111 @@
+/* ----------------------------------------------------------------------
+   Cluster DEM for LAMMPS. Distributed under the GNU General Public License, version 2 or later.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(drag/cluster,FixDragCluster);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_DRAG_CLUSTER_H
+#define LMP_FIX_DRAG_CLUSTER_H
+
+#include "fix.h"
+
+#include "model/drag_law.h"
+#include "model/gas_field.h"
+
+namespace LAMMPS_NS {
+class StyleArguments;
+
+class FixDragCluster : public Fix {
+ public:
+  FixDragCluster(class LAMMPS *, int, char **);
+  ~FixDragCluster() override;
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void post_force(int) override;
+
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  int pack_restart(int, double *) override;
+  void unpack_restart(int, int) override;
+  int size_restart(int) override;
+  int maxsize_restart() override;
+
+  double compute_vector(int) override;
+  double memory_usage() override;
+
+  // What the size law asks of the gas. prepare() once per step, before any gas_velocity().
+  void prepare();
+  ClusterDEM::Vec3 gas_velocity(int i);
+  double cluster_coefficient(int i, double slip_speed) const;
+  ClusterDEM::Vec3 in_plane(const ClusterDEM::Vec3 &force) const;
+  const ClusterDEM::DragLaw &drag_law() const { return *law; }
+  const ClusterDEM::Gas &gas_properties() const { return gas; }
+
+  // a newborn or changed cluster sees a new fluctuation of its own
+  void redraw(int i);
+
+ private:
+  ClusterDEM::Gas gas;
+  std::unique_ptr<ClusterDEM::DragLaw> law;
+
+  // mean velocity: numbers or variables per component, plus a profile along one axis
+  struct Component {
+    double value = 0.0;
+    std::string variable;
+    int index = -1;
+    bool per_atom = false;
+  };
+  Component velocity[3];
+  double **velocity_atom;    // of atom-style variables
+  int nmax_velocity;
+  ClusterDEM::GasProfile profile;
+  int profile_axis;
+
+  enum { NO_FLUCTUATION, PER_CELL, OWN };
+  int fluctuation;
+  ClusterDEM::Vec3 amplitude;
+  int cells[3];
+  double period;
+  uint64_t seed;
+  int64_t period_now;
+
+  // Fluctuation last computed for a slot of the atom arrays. It is a pure function of its key, so
+  // it stays right whichever cluster comes to use the slot: nothing to migrate.
+  struct CachedFluctuation {
+    int64_t a = -1, b = -1, period = -1;
+    ClusterDEM::Vec3 u;
+  };
+  std::vector<CachedFluctuation> cache;
+  int *draw;    // draw number per cluster (own fluctuation only)
+
+  bool acts_along[3];
+  double unshielded;
+  double particle_d, particle_mass;    // of a primary particle, where `unshielded` needs it
+  bool particle_given;
+  bool exponential;
+
+  int peratom_rows;                    // rows that array_atom has room for
+  double totals[4], totals_all[4];    // force and power on my clusters, on all
+  bool totals_current;
+
+  void parse_velocity(StyleArguments &);
+  void parse_fluctuation(StyleArguments &);
+  void parse_law(StyleArguments &);
+  void parse_plane(StyleArguments &);
+  void parse_profile(StyleArguments &);
+  void find_primary_particle();
+  ClusterDEM::Vec3 fluctuation_of(int i);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,118 @@
+/* ----------------------------------------------------------------------
+   Cluster DEM for LAMMPS. Distributed under the GNU General Public License, version 2 or later.
+------------------------------------------------------------------------- */
+
+#include "granular_pairs.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "force.h"
+#include "neigh_list.h"
+#include "pair.h"
+#include "utils.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace ClusterDEM;
+
+/* ---------------------------------------------------------------------- */
+
+void GranularPairs::find(const std::string &fix, int groupbit, double largest_diameter)
+{
+  pairs.clear();
+  for (const char *word : {"^granular", "^gran/"})
+    for (int nsub = 1;; nsub++) {
+      Pair *pair = force->pair_match(word, 0, nsub);
+      bool known = pair == nullptr;
+      for (const Pair *p : pairs) known = known || p == pair;
+      if (known) break;
+      pairs.push_back(pair);
+    }
+  if (pairs.empty())
+    error->all(FLERR, "{} needs a granular pair style (granular or gran/*), but the pair style is {}",
+               fix, force->pair_style ? force->pair_style : "none");
+  for (const Pair *pair : pairs)
+    if (!pair->single_enable)
+      error->all(FLERR, "{} needs a pair style with a single() function", fix);
+
+  if (comm->ghost_velocity == 0)
+    error->all(FLERR, "{} needs the velocities of ghost clusters: use comm_modify vel yes", fix);
+
+  // A pair style takes its cutoff from the largest radius there is at set-up; clusters that merge to
+  // a larger one would overlap without a force, and without a word.
+  std::vector<int> present(atom->ntypes + 1, 0), anywhere(atom->ntypes + 1, 0);
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit) present[atom->type[i]] = 1;
+  MPI_Allreduce(present.data(), anywhere.data(), atom->ntypes + 1, MPI_INT, MPI_MAX, world);
+  for (int a = 1; a <= atom->ntypes; a++)
+    for (int b = a; b <= atom->ntypes; b++) {
+      if (!anywhere[a] || !anywhere[b]) continue;
+      const double cutoff = std::sqrt(force->pair->cutsq[a][b]);
+      if (cutoff < largest_diameter * (1.0 - 1.0e-12))
+        error->all(FLERR,
+                   "{}: the pair cutoff of types {} and {} is {}, below the largest cluster diameter {} "
+                   "that the limits allow, so that merged clusters would overlap without a force: add "
+                   "'cutoff {}' to pair_coeff of pair style granular, or for gran/* use pair_style "
+                   "hybrid/overlay with 'zero {}'",
+                   fix, a, b, cutoff, largest_diameter, largest_diameter * 1.0001,
+                   largest_diameter * 1.0001);
+    }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void GranularPairs::find_contacts()
+{
+  double **x = atom->x;
+  const double *radius = atom->radius;
+
+  touching.clear();
+  for (Pair *pair : pairs) {
+    const NeighList *list = pair->list;
+    for (int ii = 0; ii < list->inum; ii++) {
+      const int i = list->ilist[ii];
+      const int *jlist = list->firstneigh[i];
+      const double xi = x[i][0], yi = x[i][1], zi = x[i][2], ri = radius[i];
+      for (int jj = 0; jj < list->numneigh[i]; jj++) {
+        const int j = jlist[jj] & NEIGHMASK;
+        const double dx = xi - x[j][0], dy = yi - x[j][1], dz = zi - x[j][2];
+        const double reach = ri + radius[j];
+        if (dx * dx + dy * dy + dz * dz < reach * reach) touching.push_back({i, j, pair});
+      }
+    }
+  }
+}
+
+/* ----------------------------------------------------------------------
+   single() of the sub-style gives the normal force over distance; svector[0..2] is the tangential force
+------------------------------------------------------------------------- */
+
+Vec3 GranularPairs::contact_force(const Contact &c) const
+{
+  const Vec3 dx = ClusterDEM::to_vec3(atom->x[c.i]) - ClusterDEM::to_vec3(atom->x[c.j]);
+  double normal = 0.0;
+  c.pair->single(c.i, c.j, atom->type[c.i], atom->type[c.j], ClusterDEM::dot(dx, dx), 1.0, 1.0, normal);
+  return normal * dx + ClusterDEM::to_vec3(c.pair->svector);
+}
+
+/* ----------------------------------------------------------------------
+   the same force law at equal velocities, where it does not damp
+------------------------------------------------------------------------- */
+
+double GranularPairs::stiffness(const Contact &c) const
+{
+  double *vi = atom->v[c.i];
+  double kept[3];
+  memcpy(kept, vi, sizeof(kept));
+  memcpy(vi, atom->v[c.j], sizeof(kept));
+  const Vec3 dx = ClusterDEM::to_vec3(atom->x[c.i]) - ClusterDEM::to_vec3(atom->x[c.j]);
+  double normal = 0.0;
+  c.pair->single(c.i, c.j, atom->type[c.i], atom->type[c.j], ClusterDEM::dot(dx, dx), 1.0, 1.0, normal);
+  memcpy(vi, kept, sizeof(kept));
+  const double r = ClusterDEM::norm(dx);
+  const double overlap = atom->radius[c.i] + atom->radius[c.j] - r;
+  return overlap > 0.0 ? std::fabs(normal) * r / overlap : 0.0;
+}

@@ -1,0 +1,52 @@
+// When two clusters merge, and into what (paper section 2, the criterion made symmetric).
+
+#ifndef CLUSTERDEM_MERGING_H
+#define CLUSTERDEM_MERGING_H
+
+#include "vector3.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace ClusterDEM {
+
+// |dV| / min(|V_i|, |V_j|): symmetric to the last bit, so both sides of a pair agree.
+// Two clusters at rest move alike: 0.
+inline double relative_slip(const Vec3 &v_i, const Vec3 &v_j)
+{
+  const double dv = norm(v_i - v_j);
+  if (dv == 0.0) return 0.0;
+  const double slowest = std::min(norm(v_i), norm(v_j));
+  return slowest > 0.0 ? dv / slowest : std::numeric_limits<double>::infinity();
+}
+
+inline bool fits_together(int n_i, int n_j, int n_l) { return n_i <= n_l - n_j; }
+
+struct Body {
+  double mass;
+  Vec3 x, v;
+};
+
+// mass, momentum and centre of mass conserved; x_j must be the image nearest to x_i
+inline Body combine(const Body &i, const Body &j)
+{
+  const double mass = i.mass + j.mass;
+  const double share = j.mass / mass;
+  return {mass, i.x + share * (j.x - i.x), (i.mass / mass) * i.v + share * j.v};
+}
+
+// kinetic energy that the inelastic merge takes out: 1/2 m_eff |dV|^2
+inline double energy_lost(const Body &i, const Body &j)
+{
+  const double dv = norm(i.v - j.v);
+  return 0.5 * (i.mass * j.mass / (i.mass + j.mass)) * dv * dv;
+}
+
+// elastic energy of a linear contact of stiffness k at the given overlap (none if apart)
+inline double overlap_energy(double k, double overlap)
+{
+  return overlap > 0.0 ? 0.5 * k * overlap * overlap : 0.0;
+}
+
+}    // namespace ClusterDEM
+#endif

@@ -1,0 +1,23 @@
+// A point or a vector in space, and the few operations the model needs.
+
+#ifndef CLUSTERDEM_VECTOR3_H
+#define CLUSTERDEM_VECTOR3_H
+
+#include <array>
+#include <cmath>
+
+namespace ClusterDEM {
+
+using Vec3 = std::array<double, 3>;
+
+inline Vec3 to_vec3(const double *a) { return {a[0], a[1], a[2]}; }
+inline Vec3 operator+(const Vec3 &a, const Vec3 &b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+inline Vec3 operator-(const Vec3 &a, const Vec3 &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+inline Vec3 operator*(double s, const Vec3 &a) { return {s * a[0], s * a[1], s * a[2]}; }
+inline double dot(const Vec3 &a, const Vec3 &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+// std::hypot neither overflows nor underflows on the way
+inline double norm(const Vec3 &a) { return std::hypot(a[0], a[1], a[2]); }
+
+}    // namespace ClusterDEM
+#endif
