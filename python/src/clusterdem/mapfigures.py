@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from matplotlib.colors import Normalize, TwoSlopeNorm
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from .frame import Floats
 from .grid import PAPER_SCALE, Grid
@@ -36,7 +37,7 @@ FIELDS = (
     Field("mean_diameter", "mean cluster diameter (µm)", 1e6, "cividis", from_zero=False),
     Field("velocity_z", "solids velocity $v_z$ (m/s)", from_zero=False, diverging=True, clipped=True),
     Field("velocity_x", "solids velocity $v_x$ (m/s)", from_zero=False, diverging=True, clipped=True),
-    Field("temperature", "granular temperature, in plane (m²/s²)", 1.0, "magma", clipped=True),
+    Field("temperature", "granular temperature (m²/s²)", 1.0, "magma", clipped=True),
 )
 """Every kind of map."""
 
@@ -113,7 +114,13 @@ def draw_maps(maps: Sequence[Floats], labels: Sequence[str], grid: Grid, field: 
             second = bar.ax.secondary_yaxis(
                 "right", functions=(lambda v: PAPER_SCALE * v, lambda v: np.asarray(v) / PAPER_SCALE)
             )
-            second.set_ylabel("solids volume fraction (%)\nleft ticks: true; right: paper's scale, ×10")
+            second.set_ylabel("solids volume fraction (%)")
+            for place, side, text in ((-0.3, "right", "true"), (1.3, "left", "paper's\nscale, ×10")):
+                bar.ax.text(place, 1.03, text, ha=side, va="bottom", fontsize=7, transform=bar.ax.transAxes)
         else:
             bar.set_label(field.label)
+        if isinstance(norm, TwoSlopeNorm):  # its two sides have scales of their own
+            below, above = MaxNLocator(3).tick_values(norm.vmin, 0), MaxNLocator(5).tick_values(0, norm.vmax)
+            ticks = [t for t in (*below[:-1], *above) if norm.vmin <= t <= norm.vmax]
+            bar.set_ticks(ticks, labels=[f"{t:g}".replace("-", "−") for t in ticks])
     return figure

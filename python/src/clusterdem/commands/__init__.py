@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from . import compare, map, sizes
+from . import compare, film, map, profile, scatter, sizes, table, vtk
 
-COMMANDS = (map, sizes, compare)
+COMMANDS = (map, sizes, compare, profile, scatter, film, vtk, table)
