@@ -2,14 +2,14 @@
 # shellcheck shell=bash
 
 say() { printf '%s\n' "$*" >&2; }
-die() { printf 'error: %s\n' "$@" >&2; exit 1; }
+die() { printf 'error: %s\n' "$@" >&2; exit 2; }
 have() { command -v "$1" >/dev/null 2>&1; }
 checksum() { sha256sum | cut -c1-12; }
 
-# Where to look when a command failed: its last lines, and the whole log's name.
+# When a command failed: its errors (or else its last lines), the message, and where the whole log is.
 die_with_log() {
   local log=$1; shift
-  tail -n 8 "$log" | sed 's/^/  | /' >&2
+  { grep -m 8 -E '[Ee]rror|ERROR|^E:' "$log" || tail -n 8 "$log"; } | sed 's/^/  | /' >&2
   die "$@" "the whole log: $log"
 }
 
@@ -41,6 +41,15 @@ interrupted() {
   trap - INT TERM
   say "interrupted: nothing half-made will be used; the same command goes on from here."
   exit 130
+}
+
+# No command fails in silence. (What has been explained already ends with 2, or 130.)
+failed() {
+  local status=$1 command=$2
+  case $status in
+    2 | 130) exit "$status" ;;
+    *) die "this failed with status $status: $command" ;;
+  esac
 }
 
 # Open MPI refuses root unless told twice, and more ranks than cores unless told.

@@ -38,7 +38,8 @@ use_lammps() {
 # The newest LAMMPS of Debian's unstable suite; asked again after a week.
 newest_tarball() {
   local found
-  found=$(find "$downloads/sid" -name 'lammps_*.orig.tar.*' -mtime -7 2>/dev/null | sort | tail -n 1)
+  make_folder "$downloads/sid"
+  found=$(find "$downloads/sid" -name 'lammps_*.orig.tar.*' -mtime -7 | sort | tail -n 1)
   if [[ $found ]]; then
     basename "$found"
   else
@@ -78,34 +79,48 @@ tarball_whole() {
 # Built beside its place and renamed when finished: the folder's presence is the stamp.
 # An interrupted build goes on from where it stopped.
 build_lammps() {
-  local suite=$1 tarball=$2 home=$3 part=$3.part log=$3.log skip
+  local suite=$1 tarball=$2 home=$3 part=$3.part log=$3.log
   [[ ! -d $home ]] || return 0
   need_space "$cache" 1500 "the build of LAMMPS"
-  if [[ ! -e $part/extracted ]]; then
+  if [[ ! -e $part/unpacked ]]; then
     fetch_lammps "$suite" "$tarball"
-    rm -rf "$part"
-    make_folder "$part/source"
-    local skipped=()
-    for skip in doc examples bench potentials unittest fortran tools lib python; do
-      skipped+=("--exclude=$skip" "--exclude=*/$skip")
-    done
-    tar -xf "$downloads/$suite/$tarball" -C "$part/source" \
-      --anchored --no-wildcards-match-slash "${skipped[@]}" 2>"$log" ||
-      die_with_log "$log" "cannot unpack $tarball. Disk full? If not, delete $downloads/$suite and try again."
-    touch "$part/extracted"
+    unpack_lammps "$downloads/$suite/$tarball" "$part/source"
+    touch "$part/unpacked"
   fi
-  local version_h
-  version_h=$(find "$part/source" -maxdepth 3 -path '*/src/version.h')
-  say "building LAMMPS $(lammps_date "$version_h") (once; 10 to 20 minutes on two cores)"
-  cmake -S "${version_h%/src/version.h}/cmake" -B "$part/build" -G Ninja "${lammps_options[@]}" \
-    >"$log" 2>&1 </dev/null || die_with_log "$log" "LAMMPS could not be configured."
-  nice cmake --build "$part/build" --target lmp 2>&1 </dev/null | tee -a "$log" | show_progress ||
-    die_with_log "$log" "LAMMPS could not be built. Type ./run setup again to go on from here."
+  local version
+  version=$(lammps_date "$part/source/src/version.h")
+  say "building LAMMPS $version (once; about 10 minutes on two cores)"
+  compile_lammps "$part/source" "$part/build" "$log"
   mv "$part/build/lmp" "$part/lmp"
-  mv "$(dirname "$version_h")" "$part/src"
+  mv "$part/source/src" "$part/src"
   mv "$log" "$part/build.log"
-  rm -rf "$part/source" "$part/build" "$part/extracted"
+  rm -rf "$part/source" "$part/build" "$part/unpacked"
   mv "$part" "$home"
+}
+
+# unpack_lammps TARBALL FOLDER: what the build needs (src and cmake), whether or not the tarball has a top folder.
+unpack_lammps() {
+  local tarball=$1 folder=$2 skip skipped=() top
+  for skip in doc examples bench potentials unittest fortran tools lib python; do
+    skipped+=("--exclude=$skip" "--exclude=*/$skip")
+  done
+  rm -rf "$folder" "$folder.top"
+  make_folder "$folder.top"
+  tar -xf "$tarball" -C "$folder.top" --anchored --no-wildcards-match-slash "${skipped[@]}" || die \
+    "cannot unpack $tarball. Disk full? If not, delete $downloads and try again."
+  top=$(find "$folder.top" -maxdepth 3 -path '*/src/version.h')
+  mv "${top%/src/version.h}" "$folder"
+  rm -rf "$folder.top"
+}
+
+# compile_lammps SOURCE BUILD LOG [options]
+compile_lammps() {
+  local source=$1 build=$2 log=$3
+  shift 3
+  cmake -S "$source/cmake" -B "$build" -G Ninja "${lammps_options[@]}" "$@" >"$log" 2>&1 </dev/null ||
+    die_with_log "$log" "LAMMPS could not be configured."
+  nice cmake --build "$build" --target lmp 2>&1 </dev/null | tee -a "$log" | show_progress ||
+    die_with_log "$log" "LAMMPS could not be built. Try again: it goes on from here."
 }
 
 # `[n/N] …` lines become a counter on a terminal, a line every tenth elsewhere.

@@ -27,7 +27,7 @@ verb_test() { # all tests, or those of pytest's arguments: [--lammps newest] [py
     run_unit_tests "$results/model.xml"
     run_pytest "$results/pytest.xml" tests
   fi
-  count_results "${expected[@]}"
+  count_results "${expected[@]}" || exit 1
 }
 
 run_unit_tests() {

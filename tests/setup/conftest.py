@@ -77,7 +77,7 @@ class Machine:
         """What a command says that is expected to fail."""
         process = self.start(*arguments, **options)
         output, _ = process.communicate(timeout=120)
-        assert process.returncode == 1, output
+        assert process.returncode == 2, output
         return output
 
     def bash(self, body: str) -> subprocess.Popen:
