@@ -18,10 +18,10 @@ from .streams import LineSource, open_lines
 BREAKMERGE = ("n", "d", "l", "N_st", "N_cc", "N_smf")
 DRAG = ("ug_x", "ug_y", "ug_z", "fd_x", "fd_y", "fd_z", "Re", "tau")
 ALIASES = {
-    **{f"f_bm[{i}]": name for i, name in enumerate(BREAKMERGE, 1)},
+    **{f"f_{fix}[{i}]": name for fix in ("bm", "size") for i, name in enumerate(BREAKMERGE, 1)},
     **{f"f_drag[{i}]": name for i, name in enumerate(DRAG, 1)},
 }
-"""Plain names of the raw output columns of the fixes with the ids ``bm`` and ``drag``."""
+"""Plain names of the raw output columns of the fixes with the ids ``bm`` or ``size``, and ``drag``."""
 
 
 @dataclass(frozen=True)
