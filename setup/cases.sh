@@ -13,7 +13,7 @@ verb_case3() { # the paper's case 3, the same way
 
 # run_case NAME [--np N] [arguments of lmp…]: all that it writes goes to results/NAME (or -var outdir).
 run_case() {
-  local name=$1 out=results/$1 launch=() arguments=()
+  local name=$1 out=$root/results/$1 launch=() arguments=()
   shift
   while (($#)); do
     if [[ $1 == --np ]]; then
@@ -21,7 +21,7 @@ run_case() {
       launch=(mpirun -np "$2")
       shift 2
     elif [[ $1 =~ ^--?v(ar)?$ && ${2:-} == outdir ]]; then
-      out=${3:?-var outdir wants a folder}
+      out=$(realpath -m "${3:?-var outdir wants a folder}")
       shift 3
     else
       arguments+=("$1")
@@ -37,6 +37,4 @@ run_case() {
     -var outdir "$out" </dev/null
   build/bin/clusterdem map "$out/$name".*.dump --grid 30 30 --out "$out"
   build/bin/clusterdem compare "$out/$name".*.dump --case "$name"
-  say "figures:"
-  find "$root/$out" -name '*.png' -newer "$out/$name.log" | sort
 }

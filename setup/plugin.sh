@@ -15,4 +15,16 @@ build_plugin() {
     echo "$now" >"$stamp"
   fi
   cmake --build "$build" --target clusterplugin >"$log" 2>&1 </dev/null || die_with_log "$log" "the plugin could not be built."
+  check_plugin_loads
+}
+
+# A plugin of another MPI or other integer sizes than the engine's shows it here, not in the middle of a run.
+check_plugin_loads() {
+  local plugin=$build/plugin/clusterplugin.so stamp=$build/.loads said
+  [[ $plugin -nt $stamp || $build/bin/lmp -nt $stamp ]] || return 0
+  said=$(cd "$build" && bin/lmp -in /dev/null -log none 2>&1 </dev/null) || true
+  grep -q 'Loaded 1 plugins' <<<"$said" || die \
+    "the plugin does not load into $LAMMPS_EXE: $(grep -iE 'fail|error' <<<"$said" | head -n 1)" \
+    "Was that LAMMPS built with another MPI or compiler? Set CXX and PATH so that mpicxx is the one it was built with."
+  touch "$stamp"
 }
