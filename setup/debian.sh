@@ -9,6 +9,7 @@ required_tools=(
   openmpi-bin:mpirun
   libopenmpi-dev:mpicxx
   libgtest-dev:gtest/gtest.h
+  librandom123-dev:Random123/philox.h
   python3-venv:python
   xz-utils:xz
 )
