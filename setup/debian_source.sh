@@ -55,5 +55,6 @@ debian_source() (
     "Try again, or give your own LAMMPS: LAMMPS_SOURCE_DIR=/path/lammps LAMMPS_EXE=/path/lmp ./run setup"
   tarball=$(basename "$work"/new/*.orig.tar.*)
   mv "$work/new/$tarball" "$folder/$tarball"
+  touch "$folder/$tarball" # fetched now, whatever date the archive gave it
   echo "$tarball"
 )

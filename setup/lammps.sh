@@ -51,14 +51,14 @@ newest_tarball() {
 
 # Present and whole, or fetched now.
 fetch_lammps() {
-  local suite=$1 tarball=$2 folder=$downloads/$1
+  local suite=$1 tarball=$2 folder=$downloads/$1 fetched
   if [[ -e $folder/$tarball ]]; then
     tarball_whole "$folder/$tarball" && return
     say "$folder/$tarball was corrupt: deleted."
   fi
   say "fetching LAMMPS ($tarball)"
-  [[ $(debian_source "$suite" lammps "$folder") == "$tarball" ]] || die \
-    "Debian $suite holds another version of LAMMPS than $tarball." \
+  fetched=$(debian_source "$suite" lammps "$folder")
+  [[ $fetched == "$tarball" ]] || die "Debian $suite holds another version of LAMMPS than $tarball." \
     "Give your own LAMMPS: LAMMPS_SOURCE_DIR=/path/lammps LAMMPS_EXE=/path/lmp ./run setup"
   tarball_whole "$folder/$tarball" || die \
     "the fetched $tarball has a wrong SHA-256 and was deleted." "Try again: ./run setup"
@@ -91,10 +91,11 @@ build_lammps() {
   version=$(lammps_date "$part/source/src/version.h")
   say "building LAMMPS $version (once; about 10 minutes on two cores)"
   compile_lammps "$part/source" "$part/build" "$log"
+  rm "$part/unpacked"
   mv "$part/build/lmp" "$part/lmp"
   mv "$part/source/src" "$part/src"
   mv "$log" "$part/build.log"
-  rm -rf "$part/source" "$part/build" "$part/unpacked"
+  rm -rf "$part/source" "$part/build"
   mv "$part" "$home"
 }
 
