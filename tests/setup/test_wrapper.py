@@ -10,6 +10,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 LMP = Path(os.environ.get("CLUSTERDEM_LMP", ROOT / "build" / "bin" / "lmp"))
+AS_ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 pytestmark = pytest.mark.skipif(not LMP.exists(), reason="type ./run setup first")
 
 
@@ -18,7 +19,7 @@ def run(folder, *command, **environment):
     result = subprocess.run(
         [*map(str, command), "-in", "in.styles", "-log", "none"],
         cwd=folder,
-        env=os.environ | environment,
+        env=os.environ | AS_ROOT | environment,
         stdin=subprocess.DEVNULL,
         capture_output=True,
         text=True,
