@@ -10,6 +10,8 @@ from .frame import Box
 from .streams import LineSource
 
 MAX_CLUSTERS = 10**10
+LARGEST = 1e100
+"""No number of a dump may reach this: sums and squares must stay finite."""
 
 
 @dataclass(frozen=True)
@@ -68,8 +70,8 @@ def _box(source: LineSource, flags: list[str]) -> Box:
             lo, hi = (number(word) for word in source.readline().split())
         except ValueError:
             raise InputError(source.path, f"box bounds along {axis} must be two numbers", source.line) from None
-        if not (math.isfinite(lo) and math.isfinite(hi) and lo < hi):
-            raise InputError(source.path, f"box bounds along {axis} must be finite and rising", source.line)
+        if not (1e-6 <= hi - lo <= 1e6 and abs(lo) <= 1e6):
+            raise InputError(source.path, f"the box must be 1e-6 to 1e6 m long along {axis}, lower bound first", source.line)
         bounds.append((lo, hi))
     periodic = [flag == "pp" for flag in boundary] or [True, True, True]
     (xlo, xhi), (ylo, yhi), (zlo, zhi) = bounds
@@ -107,10 +109,12 @@ def read_header(source: LineSource) -> Header | None:
                 time = number(text)
             except ValueError:
                 time = math.nan
-            if not math.isfinite(time):
+            if not abs(time) < LARGEST:
                 raise InputError(source.path, "the time must be one finite number", source.line)
         elif name == "TIMESTEP":
             begin, step = source.line, _integer(source, "the timestep")
+            if not 0 <= step < 2**63:
+                raise InputError(source.path, "the timestep must be 0 or more and below 2^63", source.line)
         elif name == "NUMBER OF ATOMS":
             count = _integer(source, "the number of atoms")
             if not 0 < count <= MAX_CLUSTERS:

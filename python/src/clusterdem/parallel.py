@@ -94,6 +94,11 @@ def over_frames(
         except InputError as error:
             failed = ((number, key[1] + 1), error)
             break
+        except BaseException as error:
+            if comm is not None:  # the other ranks wait for this one
+                print(f"clusterdem: rank {rank}: {type(error).__name__}: {error}", file=sys.stderr, flush=True)
+                comm.Abort(130 if isinstance(error, KeyboardInterrupt) else 1)
+            raise
     if comm is not None:
         gathered = comm.gather((found, failed))
         if rank == 0:

@@ -11,7 +11,7 @@ import numpy as np
 
 from .errors import InputError
 from .frame import Box, Floats, Frame
-from .header import Header, read_header
+from .header import LARGEST, Header, read_header
 from .rows import parse_rows
 from .streams import LineSource, open_lines
 
@@ -85,10 +85,11 @@ def _values(column: Column, raw: Floats) -> Floats:
 
 
 def _check(frame: Frame) -> None:
-    for name in ("mass", "diameter"):
-        low = np.flatnonzero(frame[name] <= 0.0)
-        if len(low):
-            raise InputError(frame.path, f"{name} must be positive", frame.first_row + int(low[0]))
+    largest = min(frame.box.lengths[0], frame.box.lengths[2])
+    for name, most, limit in (("mass", LARGEST, ""), ("diameter", largest, ", and smaller than the box")):
+        wrong = np.flatnonzero(~((frame[name] > 1 / LARGEST) & (frame[name] < most)))
+        if len(wrong):
+            raise InputError(frame.path, f"{name} must be positive{limit}", frame.first_row + int(wrong[0]))
     for axis, letter in ((0, "x"), (2, "z")):
         if not frame.box.periodic[axis]:
             lo, hi, slack = frame.box.lo[axis], frame.box.hi[axis], frame.diameter
@@ -106,7 +107,7 @@ def _read_frame(source: LineSource, header: Header, columns: Collection[str] | N
         layout = {name: column for name, column in layout.items() if name in always or name in columns}
     indices = sorted({column.index for column in layout.values()})
     block = source.readlines(header.count)
-    parsed = parse_rows(block, header.count, len(header.names), indices, source.path, first)
+    parsed = parse_rows(block, header.count, header.names, indices, source.path, first)
     raw = dict(zip(indices, parsed))
     values = {name: _values(column, raw[column.index]) for name, column in layout.items()}
     frame = Frame(header.step, header.time, header.box, values, source.path, header.line, first)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -11,10 +10,10 @@ import polars as pl
 
 from .errors import InputError
 from .frame import Floats
-from .header import number
+from .header import LARGEST, number
 
 
-def parse_rows(block: bytes, count: int, width: int, wanted: Sequence[int], path: str, first: int) -> list[Floats]:
+def parse_rows(block: bytes, count: int, names: Sequence[str], wanted: Sequence[int], path: str, first: int) -> list[Floats]:
     """Turn a block of rows into columns.
 
     Parameters
@@ -23,8 +22,8 @@ def parse_rows(block: bytes, count: int, width: int, wanted: Sequence[int], path
         The rows.
     count : int
         How many there must be.
-    width : int
-        Numbers per row.
+    names : sequence of str
+        The columns' names: as many numbers per row.
     wanted : sequence of int
         The columns to return, by position.
     path, first : str, int
@@ -35,8 +34,8 @@ def parse_rows(block: bytes, count: int, width: int, wanted: Sequence[int], path
     list of ndarray, shape (count,), float64
         The wanted columns, every value finite.
     """
-    columns = _fast(block, count, width, wanted) if block.endswith(b"\n") else None
-    return columns if columns is not None else _careful(block, count, width, wanted, path, first)
+    columns = _fast(block, count, len(names), wanted) if block.endswith(b"\n") else None
+    return columns if columns is not None else _careful(block, count, names, wanted, path, first)
 
 
 def _name(index: int) -> str:
@@ -65,13 +64,13 @@ def _fast(block: bytes, count: int, width: int, wanted: Sequence[int]) -> list[F
         if column.null_count():
             return None
         values = column.to_numpy()
-        if not math.isfinite(values.sum()) and not np.isfinite(values).all():
+        if not np.abs(values).max() < LARGEST:  # also where a value is NaN
             return None
         columns.append(values)
     return columns
 
 
-def _careful(block: bytes, count: int, width: int, wanted: Sequence[int], path: str, first: int) -> list[Floats]:
+def _careful(block: bytes, count: int, names: Sequence[str], wanted: Sequence[int], path: str, first: int) -> list[Floats]:
     """Row by row, any white space, naming the first line that breaks a rule."""
     lines = block.splitlines() if b"\r" in block else block.split(b"\n")
     if lines and not lines[-1]:
@@ -81,15 +80,15 @@ def _careful(block: bytes, count: int, width: int, wanted: Sequence[int], path: 
         words = line.split()
         if words[:1] == [b"ITEM:"]:
             raise InputError(path, f"the frame ends after {row} of {count} rows", first + row)
-        if len(words) != width:
-            raise InputError(path, f"a row must hold {width} numbers, not {len(words)}", first + row)
+        if len(words) != len(names):
+            raise InputError(path, f"a row must hold {len(names)} numbers, not {len(words)}", first + row)
         for column, i in zip(columns, wanted):
             try:
                 value = number(words[i])
             except ValueError:
-                raise InputError(path, f"column {i + 1} must be a number", first + row) from None
-            if not math.isfinite(value):
-                raise InputError(path, f"column {i + 1} must be finite", first + row)
+                raise InputError(path, f"column {i + 1} ({names[i]}) must be a number", first + row) from None
+            if not abs(value) < LARGEST:
+                raise InputError(path, f"column {i + 1} ({names[i]}) must be finite and below {LARGEST:g}", first + row)
             column[row] = value
     if len(lines) < count:
         raise InputError(path, f"the file ends after {len(lines)} of {count} rows", first + max(len(lines) - 1, 0))

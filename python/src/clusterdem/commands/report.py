@@ -10,7 +10,6 @@ import argparse
 from pathlib import Path
 
 from ..published import CASES
-from ..report import write_report
 from ..rundir import find_run
 from .common import add_density, positive, tell
 
@@ -26,6 +25,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> None:
+    from ..report import write_report  # brings MDAnalysis, which takes a second to import
+
     folder = find_run(options.rundir, options.name)
     path, error = write_report(
         folder, options.out, shape=tuple(options.grid), rho_p=options.rho, case=options.case, dt=options.dt

@@ -1,0 +1,127 @@
+"""Sizes, comparison with the published numbers, series and log."""
+
+from __future__ import annotations
+
+import csv
+
+import numpy as np
+import pytest
+from synthetic import BOX, random_frame, write_run
+
+from clusterdem import class_shares, size_summary
+from clusterdem.compare import as_text, compare, moment_of
+from clusterdem.enginelog import read_log
+from clusterdem.errors import InputError
+from clusterdem.frame import Frame
+from clusterdem.nonuniformity import lateral, measure, strips
+from clusterdem.grid import Grid, maps_of
+from clusterdem.published import CASES
+from clusterdem.series import event_rates, read_series
+from clusterdem.sizes import fine_edges, histogram
+
+
+def test_summary_of_known_sizes():
+    d = np.array([100e-6, 300e-6, 599e-6, 900e-6, 1000e-6])
+    s = size_summary(d, np.ones(5))
+    assert s.classes == pytest.approx((20, 40, 0, 40))
+    assert s.mean == pytest.approx(d.mean()) and s.sauter == pytest.approx((d**3).sum() / (d**2).sum())
+    assert (s.smallest, s.largest, s.count) == (100e-6, 1000e-6, 5)
+    assert class_shares(d, np.array([0, 0, 0, 0, 2.0])) == pytest.approx((0, 0, 0, 100))
+
+
+def test_histogram_holds_everything():
+    frame = random_frame(5000)
+    number, mass = histogram(frame.diameter, frame.mass, fine_edges(top=1000e-6))
+    assert len(number) == 20 and number.sum() == pytest.approx(100) and mass.sum() == pytest.approx(100)
+
+
+def test_sizes_command(tmp_path, command):
+    code, out, err = command("sizes", *write_run(tmp_path, 3), "--out", tmp_path / "s")
+    assert (code, err) == (0, "")
+    rows = list(csv.DictReader((tmp_path / "s/sizes.csv").open()))
+    assert [int(row["clusters"]) for row in rows] == [400, 800, 1200]
+    assert float(rows[0]["mean"]) == random_frame(400).diameter.mean()
+    assert (tmp_path / "s/sizes.png").stat().st_size > 10_000 and "t = 0.02 s" in out
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_a_run_that_is_row_a_agrees_with_row_a(case):
+    """A frame made to have row A's end state differs by nothing, and its differences have the right sign."""
+    frame = random_frame(1000, 0, 0.05)
+    moment = moment_of(frame)
+    result = compare([moment], case)
+    names = [line.name for line in result.lines]
+    assert "mean d at 0.05 s" in names and ("mean d, strip 1 of 6 (centre)" in names) == (case == "case3")
+    line = result.lines[names.index("clusters at 0.05 s")]
+    low, high = CASES[case].rows[1].count[0.05]
+    assert line.difference(1) == pytest.approx(100 * (1000 / ((low + high) / 2) - 1))
+    text = as_text(result)
+    assert "paper" in text and "row A" in text and "ten times" in text
+
+
+def test_compare_command_and_rows(tmp_path, command):
+    dumps = write_run(tmp_path, 2)
+    code, out, _ = command("compare", *dumps, "--case", "case1", "--out", tmp_path / "t.txt", "--rows", "paper", "row E")
+    assert code == 0 and "row E" in out and (tmp_path / "t.txt").read_text() in out
+    code, _, err = command("compare", *dumps, "--case", "case3", "--rows", "row Q")
+    assert code == 2 and "row Q" in err
+
+
+def test_random_clusters_are_poisson():
+    frame = random_frame(100_000)
+    grid = Grid(BOX, 30, 30)
+    u = measure(maps_of(frame, grid)["fraction"], frame.mass, frame.x, frame.z, grid)
+    assert u.dispersion == pytest.approx(1, abs=0.2) and u.number_dispersion == pytest.approx(1, abs=0.2)
+    assert u.smallest < u.mean < u.largest and u.dense_share == 0
+
+
+def test_lattice_and_lump_lie_on_either_side_of_chance():
+    grid = Grid(BOX, 30, 30)
+    x, z = (a.ravel() for a in np.meshgrid((np.arange(30) + 0.5) / 100, (np.arange(30) + 0.5) / 50))
+    mass = np.ones(900)
+    even = measure(np.full((30, 30), 0.1), mass, x, z, grid)
+    assert even.dispersion < 1e-20 and even.number_dispersion == 0
+    lump = np.zeros((30, 30))
+    lump[3, 4] = 90.0
+    uneven = measure(lump, mass, np.full(900, 0.035), np.full(900, 0.09), grid)
+    assert uneven.dispersion == pytest.approx(900, rel=0.01) and uneven.dense_share == 1
+
+
+def test_profiles_keep_the_mass_and_find_the_wall():
+    frame = random_frame(50_000)
+    s = np.abs(frame.x - 0.15) / 0.15
+    columns = dict(frame.columns, diameter=1e-4 * (3 + 5 * s), vz=8 - 9 * s**2)
+    frame = Frame(0, 0.0, BOX, columns)
+    profile = lateral(frame, 30)
+    volume = 0.3 * 0.003 * 0.6 / 30
+    assert (profile.fraction * volume * 2000).sum() == pytest.approx(frame.mass.sum(), rel=1e-12)
+    six = strips(frame)
+    assert (np.diff(six.diameter) > 0).all() and six.count.sum() == 50_000
+    assert six.diameter[0] == pytest.approx(1e-4 * (3 + 5 / 12), rel=0.02)
+    assert six.velocity is not None and six.velocity[0] > 7 and six.velocity[-1] < 1
+
+
+def test_series(tmp_path):
+    path = tmp_path / "a.N.txt"
+    path.write_text("# title\n# step time clusters breakups merges\n0 0 10 0 0\n5 0.5 14 4 1\n10 1.0 13 5\n")
+    series = read_series(path)
+    assert series["clusters"].tolist() == [10, 14]
+    assert event_rates(series)["breakups"].tolist() == [8.0]
+    path.write_text("# step time\n1 2 3\n1 2\n")
+    with pytest.raises(InputError, match=":2: a row must hold 2"):
+        read_series(path)
+
+
+def test_log(tmp_path):
+    path = tmp_path / "a.log"
+    path.write_text(
+        "LAMMPS (4 Feb 2025)\nvariable seed index 7\nWARNING: mind (src/x.cpp:1)\nrun 5\n"
+        "Step Time\n0 0\nLoop time of 2.5 on 2 procs for 5 steps with 9 atoms\n"
+        "Section |  min time  |  avg time  |  max time  |%varavg| %total\n"
+        "Pair    | 0.5        | 1.0        | 1.5        |   0.0 | 40.00\n"
+        "Other   |            | 1.5        |            |       | 60.00\nTotal wall time: 0:00:03\n"
+    )
+    log = read_log(path)
+    assert (log.version, log.ranks, log.steps, log.loop, log.wall) == ("LAMMPS (4 Feb 2025)", 2, 5, 2.5, "0:00:03")
+    assert log.phases == {"Pair": 1.0, "Other": 1.5} and log.variables == {"seed": "7"}
+    assert log.script == ["variable seed index 7", "run 5"] and len(log.warnings) == 1
