@@ -2,7 +2,9 @@
    Cluster DEM for LAMMPS. Distributed under the GNU General Public License, version 2 or later.
 ------------------------------------------------------------------------- */
 
-// Registers the styles when LAMMPS loads the plugin. Left out of a static build.
+// Registers the styles when LAMMPS loads the plugin. Empty in a static build, which registers them itself.
+
+#ifdef CLUSTER_PLUGIN
 
 #include "lammpsplugin.h"
 
@@ -46,3 +48,5 @@ extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   plugin.creator.v2 = (lammpsplugin_factory2 *) &create_fix<FixClusterBreakMerge>;
   register_style(&plugin, lmp);
 }
+
+#endif

@@ -327,7 +327,7 @@ Vec3 FixDragCluster::fluctuation_of(int i)
     const double *x = atom->x[i];
     a = 0;
     for (int k = 2; k >= 0; k--)
-      a = a * cells[k] + cell_index(x[k], domain->boxlo[k], domain->boxhi[k], cells[k]);
+      a = a * cells[k] + cell_index(x[k], domain->boxlo[k], domain->prd[k], cells[k]);
   } else {
     a = atom->tag[i];
     b = draw[i];

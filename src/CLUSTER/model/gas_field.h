@@ -40,11 +40,12 @@ inline std::int64_t period_index(double t, double period)
   return static_cast<std::int64_t>(std::floor(t / period + 1.0e-6));
 }
 
-// Cell of a regular grid of n cells over [lo, hi) that x lies in, with x wrapped into a periodic box.
-inline int cell_index(double x, double lo, double hi, int n)
+// Cell of a regular grid of n cells over [lo, lo + length) that x lies in, wrapped into a periodic box.
+inline int cell_index(double x, double lo, double length, int n)
 {
-  double share = (x - lo) / (hi - lo);
-  share -= std::floor(share);
+  if (n == 1) return 0;
+  double share = (x - lo) / length;
+  if (share < 0.0 || share >= 1.0) share -= std::floor(share);
   const int k = static_cast<int>(share * n);
   return std::min(k, n - 1);
 }

@@ -16,8 +16,7 @@ inline Vec3 operator-(const Vec3 &a, const Vec3 &b) { return {a[0] - b[0], a[1] 
 inline Vec3 operator*(double s, const Vec3 &a) { return {s * a[0], s * a[1], s * a[2]}; }
 inline double dot(const Vec3 &a, const Vec3 &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// std::hypot neither overflows nor underflows on the way
-inline double norm(const Vec3 &a) { return std::hypot(a[0], a[1], a[2]); }
+inline double norm(const Vec3 &a) { return std::sqrt(dot(a, a)); }
 
 }    // namespace ClusterDEM
 #endif
