@@ -1,0 +1,198 @@
+"""fix drag/cluster on the real engine."""
+
+import numpy as np
+import pytest
+from engine import D_P, M_P, clusters, diameter, head, pair, random_clusters, run, write
+
+RHO_G, NU_G = 1.2, 1.53e-5
+
+
+def one_cluster(drag: str, n: int = 400, v=(0.0, 0.0), steps: int = 0, more: str = "", dt: float = 1e-6) -> str:
+    return (
+        head() + clusters((n, (0.02, 0.02), v)) + pair() + "fix move all nve\n" + more
+        + f"fix drag all drag/cluster {RHO_G} {NU_G} {drag}\ntimestep {dt}\nrun {steps}\n" + write("f_drag[*]")
+    )
+
+
+# C_D of Tran-Cong, Gay & Michaelides (2004) and of the sphere limit, from MODEL.md section 4
+TABLE = [
+    ("trancong 1 1", 1.0, 27.6000),
+    ("trancong 1 1", 100.0, 1.09379),
+    ("trancong 1 1", 1000.0, 0.46615),
+    ("trancong 0.8 1.1", 1.0, 31.1270),
+    ("trancong 0.8 1.1", 100.0, 1.38548),
+    ("trancong 0.8 1.1", 1000.0, 0.61216),
+    ("stokes", 0.5, 48.0),
+]
+
+
+@pytest.mark.parametrize("law, re, c_d", TABLE)
+def test_force_on_a_resting_cluster(tmp_path, law, re, c_d):
+    d = diameter(400)
+    u = re * NU_G / d
+    row = run(tmp_path, one_cluster(f"velocity 0 0 {u!r} law {law}")).dump()
+    force = c_d * np.pi / 8 * RHO_G * d**2 * u**2
+    # the reference values are given to 5 or 6 digits
+    assert row["f_drag[6]"][0] == pytest.approx(force, rel=1e-5)
+    assert row["f_drag[7]"][0] == pytest.approx(re, rel=1e-12)
+    assert row["fz"][0] == row["f_drag[6]"][0]
+    assert row["f_drag[8]"][0] == pytest.approx(400 * M_P * u / force, rel=1e-5)
+
+
+def test_mfix_dem06_terminal_velocity(tmp_path):
+    """MFiX DEM06: one 100 um sphere falls in rising air (Schiller & Naumann); values of MODEL.md section 8.
+
+    The drag is evaluated at half-step velocities, first order in dt: dt/(2 tau) = 1e-5 at dt = 1e-6 s.
+    """
+    script = head() + (
+        "create_atoms 1 single 0.02 0.0015 0.035\nset atom 1 diameter 1e-4\nset atom 1 density 2000\n"
+    ) + pair() + (
+        "fix move all nve\n"
+        f"fix fall all gravity {9.80665 * (1 - 1.2 / 2000)!r} vector 0 0 -1\n"
+        "fix drag all drag/cluster 1.2 1.5e-5 velocity 0 0 0.4 law schiller/naumann\n"
+        "timestep 1e-6\ndump d all custom 10000 path.dump id vz z\ndump_modify d format float %.12g\nrun 350000\n"
+    )
+    frames = run(tmp_path, script).frames("path.dump")
+    expected = {1: -0.01255261, 5: -0.04078891, 10: -0.05263133, 20: -0.05701037, 35: -0.05739251}
+    for k, v in expected.items():
+        assert frames[k]["vz"][0] == pytest.approx(v, rel=2e-5)
+    fallen = frames[0]["z"][0] - frames[35]["z"][0]
+    assert fallen == pytest.approx(0.0925 - 0.07472122, rel=2e-5)
+
+
+@pytest.mark.parametrize("dt_over_tau", [1e-3, 1.0, 30.0, 1e4])
+def test_exponential_integrator_never_overshoots(tmp_path, dt_over_tau):
+    """Stokes drag, so tau is constant. With E = exp(-dt/tau), velocity Verlet takes half a kick at set-up,
+    then the slip at half steps shrinks by E each step: u - v(n dt) = u (1 + E)^2 E^(n-1) / 4.
+    """
+    tau = 400 * M_P / (3 * np.pi * RHO_G * NU_G * diameter(400))
+    dt = float(dt_over_tau * tau)
+    script = one_cluster("velocity 0 0 2.0 law stokes integrator exponential", steps=0, dt=dt) + (
+        "dump d all custom 1 path.dump id vz\ndump_modify d format float %.17g first yes\nrun 20\n"
+    )
+    # a cluster that moves many boxes per step would be lost: hold it in place, only velocities matter
+    script = script.replace("fix move all nve\n", "fix move all nve\nneigh_modify delay 1000 every 1000 check no\n")
+    v = np.array([f["vz"][0] for f in run(tmp_path, script).frames("path.dump")])
+    assert np.all(v <= 2.0 * (1 + 1e-15)) and np.all(np.diff(v) >= 0)
+    e = np.exp(-dt_over_tau)
+    assert v[1:] == pytest.approx(2.0 - 0.5 * (1 + e) ** 2 * e ** np.arange(20.0), rel=1e-12)
+
+
+def test_explicit_integrator_is_the_default_and_overshoots(tmp_path):
+    tau = 400 * M_P / (3 * np.pi * RHO_G * NU_G * diameter(400))
+    script = one_cluster("velocity 0 0 1e-4 law stokes", dt=float(3 * tau), steps=2)
+    assert run(tmp_path, script).dump()["vz"][0] > 1e-4
+
+
+def test_plane_leaves_the_third_direction_alone(tmp_path):
+    row = run(tmp_path, one_cluster("velocity 1 1 1 law stokes plane xz")).dump()
+    assert row["f_drag[4]"][0] == row["f_drag[6]"][0] > 0.0
+    assert row["f_drag[5]"][0] == 0.0
+    assert row["f_drag[2]"][0] == 1.0  # the gas still blows there
+
+
+def test_global_vector_is_total_force_and_power(tmp_path):
+    script = (
+        head() + random_clusters(50) + pair() + "velocity all set 0.1 0 -0.2\nfix move all nve\n"
+        "fix drag all drag/cluster 1.2 1.53e-5 velocity 1 0 2 fluctuation 0.5 0 0.5 cell 10 1 10 0.005 3\n"
+        'run 0\nprint "$(f_drag[1]:%.17g) $(f_drag[2]:%.17g) $(f_drag[3]:%.17g) $(f_drag[4]:%.17g)" file total.txt\n'
+        + write("f_drag[*]")
+    )
+    r = run(tmp_path, script)
+    row, total = r.dump(), np.loadtxt(tmp_path / "total.txt")
+    force = np.array([row[f"f_drag[{k}]"] for k in (4, 5, 6)])
+    v = np.array([row[k] for k in ("vx", "vy", "vz")])
+    assert total[:3] == pytest.approx(force.sum(axis=1), rel=1e-12, abs=1e-20)
+    assert total[3] == pytest.approx((force * v).sum(), rel=1e-12)
+
+
+def test_unshielded_blends_with_single_particles(tmp_path):
+    def fz(share: float, n: int) -> float:
+        text = f"velocity 0 0 1.0 law schiller/naumann unshielded {share} particle {D_P} 2000"
+        return run(tmp_path / f"{share}-{n}", one_cluster(text, n=n)).dump()["f_drag[6]"][0]
+
+    single = np.pi / 8 * RHO_G * NU_G * D_P * 24 * (1 + 0.15 * (D_P / NU_G) ** 0.687)
+    assert fz(1.0, 400) == pytest.approx(400 * single, rel=1e-12)
+    assert fz(0.25, 400) == pytest.approx(0.75 * fz(0.0, 400) + 0.25 * 400 * single, rel=1e-12)
+
+
+def test_profile_is_exact_where_the_gas_is_linear(tmp_path):
+    (tmp_path / "gas.txt").write_text("# x ux uy uz\n0 0 0 1\n0.01 0.5 0 2\n0.04 0.5 0 -4\n")
+    text = random_clusters(60)
+    script = head() + text + pair() + (
+        "fix move all nve\nfix drag all drag/cluster 1.2 1.53e-5 profile gas.txt x\nrun 0\n" + write("f_drag[*]")
+    )
+    row = run(tmp_path, script).dump()
+    assert row["f_drag[3]"] == pytest.approx(np.interp(row["x"], [0, 0.01, 0.04], [1, 2, -4]), abs=1e-13)
+    assert row["f_drag[1]"] == pytest.approx(np.interp(row["x"], [0, 0.01, 0.04], [0, 0.5, 0.5]), abs=1e-13)
+
+
+def test_variables_give_the_gas_velocity(tmp_path):
+    script = head() + random_clusters(20) + pair() + (
+        "variable a equal 0.5+step\nvariable b atom 3*x-z\nfix move all nve\n"
+        "fix drag all drag/cluster 1.2 1.53e-5 velocity v_a 0 v_b\ntimestep 1e-7\nrun 2\n" + write("f_drag[*]")
+    )
+    row = run(tmp_path, script).dump()
+    assert np.all(row["f_drag[1]"] == 2.5)
+    assert row["f_drag[3]"] == pytest.approx(3 * row["x"] - row["z"], abs=1e-12)
+
+
+# ---- fluctuation ----
+
+def fluctuating(text: str, steps: int = 0, newton: str = "on", dt: float = 1e-6) -> str:
+    return head(newton=newton) + random_clusters(200) + pair() + (
+        f"fix move all nve\nfix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 2 fluctuation 0.75 0 0.5 {text}\n"
+        f"timestep {dt}\nrun {steps}\n" + write("f_drag[*]")
+    )
+
+
+@pytest.mark.parametrize("text", ["cell 10 1 10 0.005 7", "own 0.005 7", "own frozen 7", "cell 10 1 10 frozen 7"])
+def test_fluctuation_does_not_depend_on_ranks(tmp_path, text):
+    rows = [run(tmp_path / str(n), fluctuating(text, steps=200), n).dump() for n in (1, 2, 4)]
+    for other in rows[1:]:
+        assert np.array_equal(rows[0]["f_drag[1]"], other["f_drag[1]"])
+        assert np.array_equal(rows[0]["f_drag[3]"], other["f_drag[3]"])
+    u, w = rows[0]["f_drag[1]"], rows[0]["f_drag[3]"] - 2.0
+    assert np.abs(u).max() <= 0.75 and np.abs(w).max() <= 0.5
+    assert np.abs(u).max() > 0.6 and np.std(u) == pytest.approx(0.75 / np.sqrt(3), rel=0.2)  # uniform, 100+ draws
+    assert np.all(rows[0]["f_drag[2]"] == 0.0)
+
+
+def test_clusters_in_one_cell_see_one_gas(tmp_path):
+    row = run(tmp_path, fluctuating("cell 4 1 4 frozen 7")).dump()
+    cell = (row["x"] // 0.01) * 4 + row["z"] // 0.01
+    assert len(np.unique(cell)) == len(np.unique(row["f_drag[1]"])) == 16
+    for c in np.unique(cell):
+        assert len(np.unique(row["f_drag[1]"][cell == c])) == 1
+
+
+def test_redrawn_at_the_period_and_not_before(tmp_path):
+    def u(steps):
+        text = fluctuating("own 1e-4 7", steps=steps, dt=1e-6)
+        return run(tmp_path / str(steps), text).dump()["f_drag[1]"]
+
+    first, last, redrawn = u(0), u(99), u(100)
+    assert np.array_equal(first, last)
+    assert np.all(first != redrawn)
+
+
+def test_seed_changes_all(tmp_path):
+    a = run(tmp_path / "a", fluctuating("own frozen 7")).dump()["f_drag[1]"]
+    b = run(tmp_path / "b", fluctuating("own frozen 8")).dump()["f_drag[1]"]
+    assert np.all(a != b)
+
+
+@pytest.mark.parametrize("text", ["own 3e-5 7", "cell 10 1 10 3e-5 7"])
+def test_restart_continues_bit_equal(tmp_path, text):
+    setup = head() + random_clusters(200) + pair()
+    style = f"fix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 2 fluctuation 0.75 0 0.5 {text}\n"
+    fixes = "fix move all nve\n" + style + "timestep 1e-6\n"
+    whole = run(tmp_path / "whole", setup + fixes + "run 50\nrun 50\n" + write("f_drag[*]")).dump()
+    run(tmp_path / "half", setup + fixes + "run 50\nwrite_restart half.restart\n")
+    again = (
+        "atom_modify map hash sort 0 0\ncomm_modify vel yes cutoff 5.7e-3\nread_restart ../half/half.restart\n"
+        "neighbor 0.5e-3 bin\n" + fixes + "run 50\n" + write("f_drag[*]")
+    )
+    continued = run(tmp_path / "again", again).dump()
+    for column in whole:
+        assert np.array_equal(whole[column], continued[column]), column
