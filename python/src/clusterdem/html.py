@@ -27,11 +27,12 @@ dd { margin: 0; font-weight: 600; font-variant-numeric: tabular-nums; }
 figure { margin: 1rem 0; }
 figure img { display: block; width: 100%; height: auto; }
 figure.small img { max-width: 34rem; }
+figure.medium img { max-width: 46rem; margin: 0 auto; }
 div.wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: 0.875rem; font-variant-numeric: tabular-nums; width: 100%; }
-th, td { padding: 0.28rem 0.6rem; text-align: right; white-space: nowrap; border-bottom: 1px solid var(--line); }
+th, td { padding: 0.28rem 0.45rem; text-align: right; white-space: nowrap; border-bottom: 1px solid var(--line); }
 th:first-child, td:first-child { text-align: left; }
-thead th { border-bottom: 2px solid var(--ink); background: var(--tint); }
+thead th { white-space: normal; vertical-align: bottom; border-bottom: 2px solid var(--ink); background: var(--tint); }
 pre { background: var(--tint); padding: 0.75rem; font-size: 0.75rem; line-height: 1.35; overflow: auto; max-height: 24rem; }
 @media (max-width: 40rem) { body { padding: 0.75rem 0.75rem 2rem; } h1 { font-size: 1.35rem; }
   div.wide > figure { min-width: 36rem; } }
@@ -71,15 +72,14 @@ def preformatted(text: str) -> str:
     return f"<pre>{escape(text)}</pre>\n"
 
 
-def picture(figure: Figure, caption: str, small: bool = False) -> str:
-    """A figure inside the page, as PNG."""
+def picture(figure: Figure, caption: str, kind: str = "") -> str:
+    """A figure inside the page, as PNG; ``small`` or ``medium`` where it need not be as wide as the page."""
     data = io.BytesIO()
     figure.savefig(data, dpi=RC["savefig.dpi"], format="png", metadata={"Software": "clusterdem"})
     source = base64.b64encode(data.getvalue()).decode()
     image = f'<img alt="{escape(caption)}" src="data:image/png;base64,{source}">'
-    kind = ' class="small"' if small else ""
-    block = f"<figure{kind}>{image}<figcaption>{escape(caption)}</figcaption></figure>"
-    return block + "\n" if small else f'<div class="wide">{block}</div>\n'
+    block = f'<figure class="{kind}">{image}<figcaption>{escape(caption)}</figcaption></figure>\n'
+    return block if kind else f'<div class="wide">{block}</div>\n'
 
 
 def page(title: str, body: str) -> str:

@@ -189,7 +189,7 @@ def _sizes(found: Gathered[Summary], shown: Sequence[Shown], last: Frame) -> str
     sizes = [value.moment.sizes for value in found.values]
     times = np.array([head.time for head in found.heads])
     steps = np.array([head.step for head in found.heads])
-    rows = [["frame", "clusters", "mean (µm)", "Sauter (µm)", "by mass (µm)", "d_min", "d_max", *(f"{c} µm (%)" for c in CLASS_NAMES)]]
+    rows = [["frame", "clusters", "mean", "Sauter", "mean by mass", "smallest", "largest", *(f"{c} (%)" for c in CLASS_NAMES)]]
     for i in panels_of(len(sizes), 12):
         s = sizes[i]
         means = [f"{1e6 * d:.1f}" for d in (s.mean, s.sauter, s.mass_mean, s.smallest, s.largest)]
@@ -202,7 +202,8 @@ def _sizes(found: Gathered[Summary], shown: Sequence[Shown], last: Frame) -> str
             "Size distribution by number and by mass in bins of 50 µm; dotted lines: borders of the four classes.",
         )
         + html.table(rows)
-        + html.picture(draw_scatter(last), "The clusters of the last frame as discs of their true size; right: the framed window.", small=True)
+        + html.paragraph("Diameters in µm; shares in percent of clusters by number.", "note")
+        + html.picture(draw_scatter(last), "The clusters of the last frame as discs of their true size; right: the framed window.", "medium")
     )
 
 
@@ -232,7 +233,11 @@ def _uniformity(found: Gathered[Summary], shown: Sequence[Shown]) -> str:
     curves = [(s.correlation, s.label) for s in shown if s.correlation is not None]
     return (
         "<h2>How evenly they lie</h2>\n"
-        + html.paragraph(f"At the end the cells are {side} chance would make them: index of dispersion {last.dispersion:.2f} (1 is chance).")
+        + html.paragraph(
+            f"At the end the cells are {side} the clusters of that moment thrown at random would make them: index of "
+            f"dispersion {last.dispersion:.2f} (1 is chance). Fragments that still lie beside their siblings count as uneven. "
+            f"The deviation of the cell fractions itself went from {100 * values[0].deviation:.4f} % to {100 * last.deviation:.4f} %."
+        )
         + html.picture(
             draw_uniformity(times, steps, values),
             "Extreme cells; index of dispersion (variance of the cells over that of the same clusters thrown at random); "
@@ -242,7 +247,7 @@ def _uniformity(found: Gathered[Summary], shown: Sequence[Shown]) -> str:
         + html.picture(
             draw_pair_correlation([c for c, _ in curves], [label for _, label in curves]),
             "Cluster–cluster g(r) in the plane with the periodic box (MDAnalysis InterRDF); 1 is chance.",
-            small=True,
+            "small",
         )
         + html.table(rows)
         + html.paragraph("Fractions are true ones; ten times as large on the paper's scale.", "note")
@@ -281,7 +286,7 @@ def _engine(log: EngineLog) -> str:
     total = sum(log.phases.values())
     rows = [["phase", "time (s)", "share (%)"]]
     rows += [[name, f"{t:.2f}", f"{100 * t / total:.1f}"] for name, t in sorted(log.phases.items(), key=lambda item: -item[1])]
-    text = "<h2>Engine time</h2>\n" + html.picture(draw_phases(log.phases), "Time of the engine by phase.", small=True)
+    text = "<h2>Engine time</h2>\n" + html.picture(draw_phases(log.phases), "Time of the engine by phase.", "small")
     text += html.table(rows)
     text += html.paragraph(f"{log.steps:,} steps, {log.loop:.1f} s in the loop, {log.ranks} ranks, wall time {log.wall or 'unknown'}.", "note")
     return text

@@ -94,6 +94,8 @@ def draw_histograms(
             axis.set_xlabel("cluster diameter (µm)")
             axis.set_ylabel(f"share per bin (% {title})")
             axis.set_xlim(0, 1e6 * edges[-1])
-            axis.set_ylim(bottom=0)
+            axis.set_yscale("log")
+            axis.set_ylim(0.01, 110)
+            axis.set_yticks([0.01, 0.1, 1, 10, 100], labels=["0.01", "0.1", "1", "10", "100"])
         figure.legend(*axes[0].get_legend_handles_labels(), loc="outside right upper", frameon=False)
     return figure

@@ -24,14 +24,14 @@ def draw_uniformity(times: Floats, steps: NDArray[np.int64], found: Sequence[Uni
     """Extreme cells, deviation against chance, and the dense cells' share of mass, over time."""
     t, label = time_axis(times, steps)
     with styled():
-        figure = new_figure(WIDTH, 2.3)
+        figure = new_figure(WIDTH, 2.5)
         extremes, dispersion, dense = figure.subplots(1, 3)
         for name, colour, mark in (("largest", 1, "^"), ("mean", 0, "o"), ("smallest", 2, "v")):
             values = [100 * getattr(u, name) for u in found]
             extremes.plot(t, values, mark + "-", color=COLOURS[colour], label=name, markersize=3)
         extremes.set_ylabel("cell solids fraction, true (%)")
         extremes.set_ylim(0, 130 * max(u.largest for u in found))
-        extremes.legend(frameon=False, ncols=3, loc="upper left", columnspacing=0.8, handlelength=1.2)
+        extremes.legend(frameon=False, ncols=3, loc="upper left", columnspacing=0.6, handlelength=0.8, handletextpad=0.3)
         right = extremes.secondary_yaxis(
             "right", functions=(lambda v: PAPER_SCALE * np.asarray(v), lambda v: np.asarray(v) / PAPER_SCALE)
         )
@@ -40,10 +40,10 @@ def draw_uniformity(times: Floats, steps: NDArray[np.int64], found: Sequence[Uni
         dispersion.plot(t, [u.number_dispersion for u in found], "s-", color=COLOURS[1], label="by number", markersize=3)
         dispersion.axhline(1.0, color="0.4", linewidth=0.8, linestyle="--", label="chance (Poisson)")
         dispersion.set_ylabel("index of dispersion")
-        dispersion.set_ylim(bottom=0)
-        dispersion.legend(frameon=False)
+        dispersion.set_ylim(0, 1.35 * max(1.0, *(max(u.dispersion, u.number_dispersion) for u in found)))
+        dispersion.legend(frameon=False, loc="upper left")
         dense.plot(t, [100 * u.dense_share for u in found], "o-", color=COLOURS[0], markersize=3)
-        dense.set_ylabel("mass in cells above twice the mean (%)")
+        dense.set_ylabel("mass in dense cells (%)")
         dense.set_ylim(bottom=0)
         for axis in (extremes, dispersion, dense):
             axis.set_xlabel(label)

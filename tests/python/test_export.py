@@ -1,0 +1,128 @@
+"""VTK, tables, films, scatter, Universe: each read back by something else."""
+
+from __future__ import annotations
+
+import base64
+import shutil
+import subprocess
+import xml.etree.ElementTree as ElementTree
+
+import numpy as np
+import polars as pl
+import pytest
+from PIL import Image
+from synthetic import BOX, random_frame, write_run
+
+from clusterdem import read_file
+from clusterdem.frame import Box, Frame
+from clusterdem.universe import pair_correlation
+
+
+def arrays(path):
+    kinds = {"Float64": np.float64, "Int64": np.int64}
+    found = {}
+    for item in ElementTree.parse(path).iter("DataArray"):
+        raw = base64.b64decode(item.text)
+        values = np.frombuffer(raw[8:], kinds[item.get("type")])
+        assert int.from_bytes(raw[:8], "little") == len(raw) - 8
+        found[item.get("Name")] = values.reshape(-1, int(item.get("NumberOfComponents", 1)))
+    return found
+
+
+def test_vtk(tmp_path, command):
+    dumps = write_run(tmp_path, 2)
+    code, out, err = command("vtk", *dumps, "--out", tmp_path / "v", "--grid", "5", "7")
+    assert (code, err) == (0, "")
+    frame = random_frame(800, 10000, 0.01)
+    points = arrays(tmp_path / "v/clusters.0000010000.vtp")
+    np.testing.assert_array_equal(points["Points"], np.stack([frame[c] for c in "xyz"], axis=1))
+    np.testing.assert_array_equal(points["v"], np.stack([frame[f"v{c}"] for c in "xyz"], axis=1))
+    for name in ("diameter", "n", "l", "mass"):
+        np.testing.assert_array_equal(points[name].ravel(), frame[name])
+    image = arrays(tmp_path / "v/maps.0000010000.vti")
+    assert image["mass"].size == 35 and image["mass"].sum() == pytest.approx(frame.mass.sum(), rel=1e-12)
+    for name in ("clusters", "maps"):
+        series = ElementTree.parse(tmp_path / f"v/{name}.pvd")
+        entries = [(float(e.get("timestep")), e.get("file")) for e in series.iter("DataSet")]
+        assert [t for t, _ in entries] == [0.0, 0.01] and all((tmp_path / "v" / f).exists() for _, f in entries)
+
+
+@pytest.mark.parametrize("kind", ["csv", "parquet"])
+def test_tables(kind, tmp_path, command):
+    code, _, _ = command("table", *write_run(tmp_path, 2), "--format", kind, "--out", tmp_path / "t")
+    assert code == 0
+    read = {"csv": pl.read_csv, "parquet": pl.read_parquet}[kind]
+    table = read(tmp_path / f"t/clusters.*.{kind}")
+    assert table.height == 1200 and table.columns[:2] == ["step", "time"]
+    last = table.filter(pl.col("step") == 10000)
+    np.testing.assert_array_equal(last["diameter"].to_numpy(), random_frame(800, 10000).diameter)
+    assert last["n"].dtype == pl.Int64
+
+
+def test_film(tmp_path, command):
+    dumps = write_run(tmp_path, 3, 50)
+    code, _, err = command("film", *dumps, "--out", tmp_path / "f.gif", "--dpi", "60", "--grid", "6", "6")
+    assert (code, err) == (0, "")
+    with Image.open(tmp_path / "f.gif") as film:
+        assert film.n_frames == 3
+    code, _, err = command("film", *dumps, "--out", tmp_path / "f.avi")
+    assert code == 2 and ".mp4 or .gif" in err
+    if shutil.which("ffmpeg") is None:
+        assert "needs ffmpeg" in command("film", *dumps, "--out", tmp_path / "f.mp4")[2]
+        return
+    assert command("film", *dumps, "--out", tmp_path / "f.mp4", "--dpi", "60")[0] == 0
+    probe = ["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=nb_read_frames,codec_name", "-of", "csv=p=0"]
+    assert subprocess.run([*probe, str(tmp_path / "f.mp4")], capture_output=True, text=True, check=True).stdout.split() == ["h264,3"]
+
+
+def test_scatter_and_profile(tmp_path, command):
+    dumps = write_run(tmp_path, 2, 100)
+    for colour in ("diameter", "vz", "speed"):
+        assert command("scatter", *dumps, "--colour", colour, "--out", tmp_path / colour)[0] == 0
+        assert len(list((tmp_path / colour).glob("*.png"))) == 2
+    assert command("profile", *dumps, "--out", tmp_path / "p")[0] == 0
+    assert {p.name for p in (tmp_path / "p").iterdir()} == {"lateral.csv", "strips.csv", "gr.csv", "lateral.png", "gr.png"}
+
+
+def test_universe(tmp_path):
+    (path, *_) = write_run(tmp_path, 1, 300)
+    (frame,) = read_file(path)
+    universe = frame.to_universe()
+    assert universe.atoms.n_atoms == 300
+    np.testing.assert_allclose(universe.atoms.positions[:, 0], 1e6 * frame.x, rtol=1e-6)
+    np.testing.assert_array_equal(universe.atoms.masses, frame.mass)
+    np.testing.assert_allclose(universe.atoms.radii, 5e5 * frame.diameter)
+    np.testing.assert_array_equal(universe.atoms.particle_counts, frame["n"].astype(int))
+    np.testing.assert_allclose(universe.dimensions[:3], [3e5, 3e3, 6e5])
+    large = universe.select_atoms("prop radius > 500")
+    assert len(large) == (frame.diameter > 1e-3).sum()
+
+
+def test_pair_correlation_of_chance_is_one_also_across_the_border():
+    r, g = pair_correlation(random_frame(20_000))
+    assert g[5:].mean() == pytest.approx(1, abs=0.02) and r[-1] < 4e-3
+
+
+def test_pair_correlation_of_pairs():
+    """1,000 pairs 2 mm apart, some across the border: one neighbour each at 2 mm."""
+    rng = np.random.default_rng(5)
+    x, z = 0.3 * rng.random(1000), 0.6 * rng.random(1000)
+    columns = {"x": np.concatenate([x, (x + 0.00205) % 0.3]), "z": np.concatenate([z, z])}
+    columns.update(mass=np.ones(2000), diameter=np.full(2000, 1e-4), y=np.full(2000, 0.0015))
+    r, g = pair_correlation(Frame(0, 0.0, BOX, columns))
+    peak = int(np.argmax(g))
+    assert r[peak] == pytest.approx(0.00205, abs=6e-5)
+    neighbours = g[peak] * 2000 / 0.18 * 2 * np.pi * r[peak] * 1e-4
+    assert neighbours == pytest.approx(1, abs=0.1)
+
+
+def test_pair_correlation_in_space_and_with_walls():
+    cube = Box((0, 0, 0), (0.1, 0.1, 0.1), (True, True, True))
+    rng = np.random.default_rng(0)
+    columns = {axis: 0.1 * rng.random(20_000) for axis in "xyz"}
+    columns.update(mass=np.ones(20_000), diameter=np.full(20_000, 1e-4))
+    _, g = pair_correlation(Frame(0, 0.0, cube, columns))
+    assert g[10:].mean() == pytest.approx(1, abs=0.02)
+    walls = Box(cube.lo, cube.hi, (False, False, False))
+    _, g = pair_correlation(Frame(0, 0.0, walls, columns))
+    assert 0.9 < g[10:].mean() < 1
