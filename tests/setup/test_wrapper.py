@@ -59,7 +59,7 @@ def test_setup_is_fast_when_nothing_is_missing():
         pytest.skip("with the user's own LAMMPS")
     start = time.monotonic()
     subprocess.run([ROOT / "run", "setup"], stdin=subprocess.DEVNULL, timeout=60, check=True)
-    assert time.monotonic() - start < 3  # 0.2 s on an idle machine
+    assert time.monotonic() - start < 5  # 0.2 s on an idle machine
 
 
 @pytest.mark.skipif(not shutil.which("cmake"), reason="no cmake here")
