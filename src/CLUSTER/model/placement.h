@@ -127,7 +127,8 @@ inline Placement place_fragments(const BreakPlan &plan, const ClusterGeometry &g
   std::size_t k = 0;
   for (; k < lattice.size() && static_cast<int>(result.centres.size()) < pieces; k++) {
     const Vec3 p = turn(a * lattice.site(k));
-    if (norm(p) + radius > claim) return result;
+    // the claim is about the centre of the whole set, below: beyond twice the claim nothing could fit
+    if (norm(p) > 2.0 * claim) return result;
     if (!free(p, radius)) {
       result.shifted = true;
       continue;
