@@ -106,7 +106,7 @@ def _read_frame(source: LineSource, header: Header, columns: Collection[str] | N
         always = {"x", "z", "mass", "diameter"}
         layout = {name: column for name, column in layout.items() if name in always or name in columns}
     indices = sorted({column.index for column in layout.values()})
-    block = source.readlines(header.count)
+    block = source.read_until(b"ITEM:", header.count)
     parsed = parse_rows(block, header.count, header.names, indices, source.path, first)
     raw = dict(zip(indices, parsed))
     values = {name: _values(column, raw[column.index]) for name, column in layout.items()}
@@ -161,8 +161,8 @@ def read_file(
                 if dt is not None and np.isnan(frame.time):
                     frame = replace(frame, time=frame.step * dt)
                 yield frame
-            elif (rows := source.skiplines(header.count)) < header.count:
-                raise InputError(source.path, f"the file ends after {rows} of {header.count} rows", source.line)
+            else:
+                source.read_until(b"ITEM:", header.count, keep=False)
             number += 1
         if number == 0:
             raise InputError(source.path, "is empty: a dump file must hold at least one frame", 1)

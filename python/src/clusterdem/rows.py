@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 
 import numpy as np
@@ -44,19 +43,17 @@ def _name(index: int) -> str:
 
 def _fast(block: bytes, count: int, width: int, wanted: Sequence[int]) -> list[Floats] | None:
     """Rows with one blank between numbers and maybe one at the end; None if anything looks unusual."""
-    # the last field of a row is read besides: a short row shows there as a null, a long one as more than a null
+    # the last field is read besides: a short row shows there as a null, a long one as an error or as no null
     ragged = block[: block.find(b"\n")].rstrip(b"\r").endswith(b" ")
-    keep = set(wanted)
-    schema: dict[str, type[pl.DataType]] = {_name(i): pl.Float64 if i in keep else pl.String for i in range(width + ragged)}
-    last = _name(width - 1 + ragged)
-    names = [name for name in schema if name == last or schema[name] is pl.Float64]
+    last = width - 1 + ragged
+    keep = {*wanted, last}
+    schema = {_name(i): pl.Float64 if i in keep else pl.String for i in range(last + 1)}
+    names = [_name(i) for i in sorted(keep)]
     try:
-        table = pl.read_csv(
-            io.BytesIO(block), has_header=False, separator=" ", schema=schema, columns=names, quote_char=None
-        )
+        table = pl.read_csv(block, has_header=False, separator=" ", schema=schema, columns=names, quote_char=None)
     except pl.exceptions.PolarsError:
         return None
-    if table.height != count or table[last].null_count() != (count if ragged else 0):
+    if table.height != count or table[_name(last)].null_count() != (count if ragged else 0):
         return None
     columns = []
     for i in wanted:
@@ -78,8 +75,6 @@ def _careful(block: bytes, count: int, names: Sequence[str], wanted: Sequence[in
     columns = [np.empty(min(count, len(lines))) for _ in wanted]
     for row, line in enumerate(lines[:count]):
         words = line.split()
-        if words[:1] == [b"ITEM:"]:
-            raise InputError(path, f"the frame ends after {row} of {count} rows", first + row)
         if len(words) != len(names):
             raise InputError(path, f"a row must hold {len(names)} numbers, not {len(words)}", first + row)
         for column, i in zip(columns, wanted):
@@ -91,7 +86,9 @@ def _careful(block: bytes, count: int, names: Sequence[str], wanted: Sequence[in
                 raise InputError(path, f"column {i + 1} ({names[i]}) must be finite and below {LARGEST:g}", first + row)
             column[row] = value
     if len(lines) < count:
-        raise InputError(path, f"the file ends after {len(lines)} of {count} rows", first + max(len(lines) - 1, 0))
+        raise InputError(path, f"the frame ends after {len(lines)} of {count} rows", first + max(len(lines) - 1, 0))
+    if len(lines) > count:
+        raise InputError(path, f"the frame holds more than its {count} rows", first + count)
     if not block.endswith(b"\n"):
         raise InputError(path, "the last row is half-written: no end of line", first + count - 1)
     return columns

@@ -9,12 +9,11 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, cast
 
-import numpy as np
 import zstandard
 
 from .errors import InputError
 
-CHUNK = 1 << 22
+CHUNK = 1 << 24
 
 
 class LineSource:
@@ -64,33 +63,36 @@ class LineSource:
             self._buffer, self._at = self._more(), 0
         return not self._buffer
 
-    def readlines(self, count: int) -> bytes:
-        """The next ``count`` lines as one block; fewer if the file ends before."""
-        pieces: list[bytes] = []
-        while count > 0 and not self.at_end():
-            piece = self._buffer[self._at :] if self._at else self._buffer
-            found = piece.count(b"\n")
-            if found < count:
-                self._at = len(self._buffer)
-            else:
-                ends = np.flatnonzero(np.frombuffer(piece, np.uint8) == 10)
-                size = int(ends[count - 1]) + 1
-                piece, found = piece[:size], count
-                self._at += size
-            pieces.append(piece)
-            count -= found
-            self.line += found
-        block = b"".join(pieces)
-        if block and not block.endswith(b"\n"):
-            self.line += 1
-        return block
+    def read_until(self, mark: bytes, lines: int, keep: bool = True) -> bytes:
+        """Everything up to ``mark`` or the end of the file, not counted but taken for ``lines`` lines.
 
-    def skiplines(self, count: int) -> int:
-        """Pass over ``count`` lines without keeping them; returns how many there were."""
-        start = self.line
-        while count > self.line - start and not self.at_end():
-            self.readlines(min(count - (self.line - start), 1 << 15))
-        return self.line - start
+        Parameters
+        ----------
+        mark : bytes
+            Where to stop; it stays in the stream.
+        lines : int
+            What the line number grows by.
+        keep : bool
+            False to pass over the bytes instead of returning them.
+        """
+        pieces: list[bytes] = []
+        while not self.at_end():
+            end = self._buffer.find(mark, self._at)
+            if end < 0:
+                more = self._more()
+                # the mark may straddle two reads
+                end = len(self._buffer) - (len(mark) - 1 if more else 0)
+                found = False
+            else:
+                more, found = b"", True
+            end = max(end, self._at)
+            if keep:
+                pieces.append(self._buffer[self._at : end])
+            self._buffer, self._at = (self._buffer, end) if found else (self._buffer[end:] + more, 0)
+            if found or not more:
+                break
+        self.line += lines
+        return b"".join(pieces)
 
 
 @contextmanager
