@@ -4,25 +4,25 @@
 # The first Python that is new enough and can make an environment with pip.
 find_python() {
   local python
-  for python in python3 /usr/bin/python3 python3.{14..10}; do
+  for python in python3 /usr/bin/python3 python3.{14..11}; do
     have "$python" && "$python" -c '
 import ensurepip, sys, venv
-sys.exit(sys.version_info < (3, 10))' 2>/dev/null && echo "$python" && return
+sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo "$python" && return
   done
   return 1
 }
 
-# Installed again only when the package's metadata or the pinned versions change.
+# Installed again only when the package's metadata, the pinned versions or this file change.
 build_python() {
   local pins=("$root"/python/requirements*.txt) stamp=$venv/.installed log=$root/build/python.log now
   [[ -e ${pins[0]} ]] || pins=()
-  now=$(cat "$root/python/pyproject.toml" "${pins[@]}" <(echo "$root") | checksum)
+  now=$(cat "$root/python/pyproject.toml" "${pins[@]}" "$root/setup/python.sh" <(echo "$root") | checksum)
   if [[ $(cat "$stamp" 2>/dev/null) != "$now" ]]; then
     need_space "$root" 1500 "the Python environment"
     say "installing the Python package into build/venv"
     local python
     python=$(find_python) || die \
-      "no Python 3.10 or later that can make an environment (venv, pip)." "Type: sudo apt-get install python3-venv"
+      "no Python 3.11 or later that can make an environment (venv, pip)." "Type: sudo apt-get install python3-venv"
     rm -rf "$venv"
     "$python" -m venv "$venv" >"$log" 2>&1 || die_with_log "$log" "cannot make the Python environment $venv."
     pip_install "$log" || die_with_log "$log" \
@@ -35,7 +35,7 @@ build_python() {
 
 # requirements.txt pins versions (a constraint); requirements-test.txt names what the tests need.
 pip_install() {
-  local python=$root/python arguments=(-e "$root/python")
+  local python=$root/python arguments=(-e "$root/python[mpi]")
   [[ ! -e $python/requirements.txt ]] || arguments+=(-c "$python/requirements.txt")
   if [[ -e $python/requirements-test.txt ]]; then
     arguments+=(-r "$python/requirements-test.txt")
