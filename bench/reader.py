@@ -30,7 +30,13 @@ def write_frames(folder: Path, frames: int, clusters: int) -> list[Path]:
         n = rng.integers(3, 2001, clusters)
         block = np.column_stack(
             [np.arange(1, clusters + 1), np.ones(clusters), 0.3 * rng.random(clusters), np.full(clusters, 0.0015)]
-            + [0.6 * rng.random(clusters), *rng.normal(1, 0.3, (3, clusters)), 1e-4 * np.cbrt(2.0 * n), n * 1.0471975511965976e-09, n]
+            + [
+                0.6 * rng.random(clusters),
+                *rng.normal(1, 0.3, (3, clusters)),
+                1e-4 * np.cbrt(2.0 * n),
+                n * 1.0471975511965976e-09,
+                n,
+            ]
         )
         path = folder / f"bench.{step:07d}.dump"
         head = (
@@ -116,7 +122,12 @@ def way_mdanalysis() -> Callable[[Path], np.ndarray]:
 
     def read(path: Path) -> np.ndarray:
         universe = MDAnalysis.Universe(
-            path, format="LAMMPSDUMP", topology_format="LAMMPSDUMP", additional_columns=["mass"], lengthunit="m", timeunit="s"
+            path,
+            format="LAMMPSDUMP",
+            topology_format="LAMMPSDUMP",
+            additional_columns=["mass"],
+            lengthunit="m",
+            timeunit="s",
         )
         ts = universe.trajectory.ts
         return binned(ts.positions[:, 0].astype(float), ts.positions[:, 2].astype(float), ts.data["mass"].astype(float))
@@ -169,13 +180,19 @@ def main() -> None:
         folder = options.folder or Path(temporary)
         paths = write_frames(folder, options.frames, options.clusters)
         size = sum(path.stat().st_size for path in paths) / 1e6
-        print(f"{options.frames} frames of {options.clusters:,} clusters, {size:.0f} MB of text, best of {options.rounds}")
+        print(
+            f"{options.frames} frames of {options.clusters:,} clusters, {size:.0f} MB of text, best of {options.rounds}"
+        )
         best: dict[str, dict] = {}
         for _ in range(options.rounds):
             for name in WAYS:
                 command = [sys.executable, __file__, "--one", name, "--folder", str(folder)]
                 done = subprocess.run(command, capture_output=True, text=True)
-                result = json.loads(done.stdout.strip().split("\n")[-1]) if done.returncode == 0 else {"missing": done.stderr.strip()[-60:]}
+                result = (
+                    json.loads(done.stdout.strip().split("\n")[-1])
+                    if done.returncode == 0
+                    else {"missing": done.stderr.strip()[-60:]}
+                )
                 if "missing" in result or result["seconds"] < best.get(name, {}).get("seconds", np.inf):
                     best[name] = result
     ours = best["clusterdem"]
@@ -186,7 +203,9 @@ def main() -> None:
             continue
         apart = np.abs(np.array(result["map"]) - ours["map"]).max() / np.max(ours["map"])
         same = "the same" if apart < 1e-12 else f"differs by {apart:.0e} of the largest cell"
-        print(f"{name:26} {result['seconds']:8.2f} {result['seconds'] / ours['seconds']:6.2f} {result['peak']:8.0f}  {same}")
+        print(
+            f"{name:26} {result['seconds']:8.2f} {result['seconds'] / ours['seconds']:6.2f} {result['peak']:8.0f}  {same}"
+        )
 
 
 if __name__ == "__main__":

@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-
 from clusterdem.frame import Box, Frame
 
 BOX = Box((0.0, 0.0, 0.0), (0.3, 0.003, 0.6), (True, False, True))
@@ -34,7 +33,9 @@ def random_frame(count: int = 500, step: int = 0, time: float = 0.0, seed: int =
     return Frame(step, time, box, columns)
 
 
-def dump_text(frame: Frame, names: list[str] | None = None, *, units: bool = True, time: bool = True, end: str = " \n") -> str:
+def dump_text(
+    frame: Frame, names: list[str] | None = None, *, units: bool = True, time: bool = True, end: str = " \n"
+) -> str:
     """A frame as LAMMPS' ``dump custom`` writes it."""
     names = names or NAMES
     flags = " ".join("pp" if periodic else "ff" for periodic in frame.box.periodic)

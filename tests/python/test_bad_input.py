@@ -9,16 +9,14 @@ import shutil
 
 import pytest
 import zstandard
+from clusterdem import Box
+from clusterdem.cli import main
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from synthetic import BOX, dump_text, random_frame, write_dump, write_run
 
-from clusterdem import Box
-from clusterdem.cli import main
-
 TEXT = dump_text(random_frame(12, 10, 0.5))
 NAMES_LINE = 13  # of ITEM: ATOMS
-
 
 
 def changed(line, text):
@@ -144,7 +142,24 @@ def test_wrong_usage_is_exit_2(arguments, command):
     assert command(*arguments)[0] == 2
 
 
-WORDS = ["nan", "inf", "-1", "0", "1e308", "1e-320", "99999999999999999999", "ITEM:", "ITEM: TIMESTEP", "pp", "\x00", "é", "_", "", "\t", "\r"]
+WORDS = [
+    "nan",
+    "inf",
+    "-1",
+    "0",
+    "1e308",
+    "1e-320",
+    "99999999999999999999",
+    "ITEM:",
+    "ITEM: TIMESTEP",
+    "pp",
+    "\x00",
+    "é",
+    "_",
+    "",
+    "\t",
+    "\r",
+]
 
 
 @st.composite
@@ -181,16 +196,29 @@ def mutated(draw):
     return bytes(data)
 
 
-@settings(max_examples=2100, deadline=None, suppress_health_check=list(HealthCheck))
-@given(data=mutated(), method=st.sampled_from(["nearest", "overlap"]))
+def outcome(data, folder, *arguments):
+    """Exit code of a command on a dump with these bytes."""
+    path = folder / "fuzz.dump"
+    path.write_bytes(data)
+    return main([arguments[0], str(path), *arguments[1:]])
+
+
+@settings(max_examples=2000, deadline=None, suppress_health_check=list(HealthCheck))
+@given(data=mutated())
 @pytest.mark.filterwarnings("error")
-def test_fuzz(data, method, tmp_path_factory):
-    """2,100 mutated dumps: done, or bad input said in one line; no other exit."""
+def test_fuzz_read(data, tmp_path_factory):
+    """2,000 mutated dumps: done, or bad input said in one line; no other exit."""
+    assert outcome(data, tmp_path_factory.getbasetemp(), "compare", "--case", "case1", "--dt", "1e-6") in (0, 2)
+
+
+@settings(max_examples=200, deadline=None, suppress_health_check=list(HealthCheck))
+@given(data=mutated())
+@pytest.mark.filterwarnings("error")
+def test_fuzz_write(data, tmp_path_factory):
+    """200 more, with exact overlap and every output: nothing half-written stays."""
     folder = tmp_path_factory.getbasetemp() / "fuzz"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir()
-    path = folder / "a.dump"
-    path.write_bytes(data)
-    code = main(["map", str(path), "--out", str(folder / "out"), "--grid", "3", "3", "--no-figures", "--deposit", method])
-    assert code in (0, 2)
+    options = ("--deposit", "overlap", "--no-figures", "--grid", "3", "3", "--out", str(folder / "out"))
+    assert outcome(data, folder, "map", *options) in (0, 2)
     assert not list(folder.rglob(".tmp-*"))

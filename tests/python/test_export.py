@@ -10,12 +10,11 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import polars as pl
 import pytest
-from PIL import Image
-from synthetic import BOX, random_frame, write_run
-
 from clusterdem import read_file
 from clusterdem.frame import Box, Frame
 from clusterdem.universe import pair_correlation
+from PIL import Image
+from synthetic import BOX, random_frame, write_run
 
 
 def arrays(path):
@@ -71,8 +70,19 @@ def test_film(tmp_path, command):
         assert "needs ffmpeg" in command("film", *dumps, "--out", tmp_path / "f.mp4")[2]
         return
     assert command("film", *dumps, "--out", tmp_path / "f.mp4", "--dpi", "60")[0] == 0
-    probe = ["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=nb_read_frames,codec_name", "-of", "csv=p=0"]
-    assert subprocess.run([*probe, str(tmp_path / "f.mp4")], capture_output=True, text=True, check=True).stdout.split() == ["h264,3"]
+    probe = [
+        "ffprobe",
+        "-v",
+        "error",
+        "-count_frames",
+        "-show_entries",
+        "stream=nb_read_frames,codec_name",
+        "-of",
+        "csv=p=0",
+    ]
+    assert subprocess.run(
+        [*probe, str(tmp_path / "f.mp4")], capture_output=True, text=True, check=True
+    ).stdout.split() == ["h264,3"]
 
 
 def test_scatter_and_profile(tmp_path, command):
@@ -81,7 +91,13 @@ def test_scatter_and_profile(tmp_path, command):
         assert command("scatter", *dumps, "--colour", colour, "--out", tmp_path / colour)[0] == 0
         assert len(list((tmp_path / colour).glob("*.png"))) == 2
     assert command("profile", *dumps, "--out", tmp_path / "p")[0] == 0
-    assert {p.name for p in (tmp_path / "p").iterdir()} == {"lateral.csv", "strips.csv", "gr.csv", "lateral.png", "gr.png"}
+    assert {p.name for p in (tmp_path / "p").iterdir()} == {
+        "lateral.csv",
+        "strips.csv",
+        "gr.csv",
+        "lateral.png",
+        "gr.png",
+    }
 
 
 def test_universe(tmp_path):

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
-from synthetic import BOX, random_frame
-
 from clusterdem import Box, Grid, InputError, deposit, maps_of
 from clusterdem.grid import check_resolution
 from clusterdem.overlap import cap, edge_volume
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from synthetic import BOX, random_frame
 
 
 @pytest.mark.parametrize("method", ["nearest", "overlap"])

@@ -7,9 +7,8 @@ import gzip
 import numpy as np
 import pytest
 import zstandard
-from synthetic import BOX, NAMES, dump_text, random_frame, write_dump
-
 from clusterdem import Box, read_dumps, read_file
+from synthetic import BOX, NAMES, dump_text, random_frame, write_dump
 
 
 def same(read, frame, names=NAMES):

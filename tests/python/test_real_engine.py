@@ -10,7 +10,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
 from clusterdem import Grid, maps_of, read_dumps
 from clusterdem.enginelog import read_log
 from clusterdem.series import read_series
@@ -60,7 +59,9 @@ def folder(tmp_path_factory):
         pytest.skip("no engine: build/bin/lmp is missing")
     path = tmp_path_factory.mktemp("engine")
     (path / "in.run").write_text(SCRIPT)
-    done = subprocess.run([ENGINE, "-in", "in.run", "-log", "run.log"], cwd=path, capture_output=True, text=True, timeout=120)
+    done = subprocess.run(
+        [ENGINE, "-in", "in.run", "-log", "run.log"], cwd=path, capture_output=True, text=True, timeout=120
+    )
     assert done.returncode == 0, done.stdout[-2000:] + done.stderr
     return path
 

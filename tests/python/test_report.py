@@ -41,7 +41,8 @@ def page(tmp_path_factory):
     write_run(folder, 6, 300)
     rows = "".join(f"{i} {i / 100} {300 + i} 7 {10 * i} {i} {30 * i} 0 1e-9 0 1e-4 2e-4 3e-4\n" for i in range(6))
     (folder / "case1.N.txt").write_text(
-        "# case1, reading A, seed 4711 <b>&\n# step time clusters particles breakups merges born deferred E_merge E_birth d_min d_mean d_max\n" + rows
+        "# case1, reading A, seed 4711 <b>&\n# step time clusters particles breakups merges born deferred E_merge E_birth d_min d_mean d_max\n"
+        + rows
     )
     (folder / "case1.log").write_text(
         "LAMMPS (4 Feb 2025)\nvariable seed index 4711\nLoop time of 2.5 on 2 procs for 5 steps with 9 atoms\n"
@@ -55,8 +56,19 @@ def page(tmp_path_factory):
 def test_one_file_with_everything_inside(page):
     text = page.read_text()
     assert not re.findall(r'(?:src|href)="(?!data:)', text) and "url(" not in text and "@import" not in text
-    for words in ("Beside the published numbers", "62524", "Conservation ledger", "LAMMPS (4 Feb 2025)", "lmp -in case1.in",
-                  "seed 4711 &lt;b&gt;&amp;", "Engine time", "Events", "paper&#x27;s scale", "differs in", "Primary particles"):
+    for words in (
+        "Beside the published numbers",
+        "62524",
+        "Conservation ledger",
+        "LAMMPS (4 Feb 2025)",
+        "lmp -in case1.in",
+        "seed 4711 &lt;b&gt;&amp;",
+        "Engine time",
+        "Events",
+        "paper&#x27;s scale",
+        "differs in",
+        "Primary particles",
+    ):
         assert words in text, words
     assert text.count("<img") >= 11
 
@@ -67,7 +79,13 @@ def test_in_a_browser(page, width, tmp_path):
     """Every figure is seen, nothing is fetched, no console error; on a phone only tables and figures scroll sideways."""
     probed = tmp_path / "probed.html"
     probed.write_text(page.read_text().replace("</body>", PROBE))
-    command = [CHROMIUM, *FLAGS, f"--user-data-dir={tmp_path}/profile", f"--window-size={max(width, 500)},900", "--virtual-time-budget=5000"]
+    command = [
+        CHROMIUM,
+        *FLAGS,
+        f"--user-data-dir={tmp_path}/profile",
+        f"--window-size={max(width, 500)},900",
+        "--virtual-time-budget=5000",
+    ]
     if width < 500:  # headless windows are at least 500 wide: a frame stands for the phone
         outer = tmp_path / "outer.html"
         outer.write_text(
@@ -97,7 +115,13 @@ def test_a_console_error_would_be_seen(tmp_path):
 @pytest.mark.skipif(CHROMIUM is None, reason="needs chromium")
 def test_prints(page, tmp_path):
     pdf = tmp_path / "report.pdf"
-    command = [CHROMIUM, *FLAGS, f"--user-data-dir={tmp_path}/profile", f"--print-to-pdf={pdf}", "--no-pdf-header-footer"]
+    command = [
+        CHROMIUM,
+        *FLAGS,
+        f"--user-data-dir={tmp_path}/profile",
+        f"--print-to-pdf={pdf}",
+        "--no-pdf-header-footer",
+    ]
     subprocess.run([*command, page.as_uri()], capture_output=True, timeout=120, check=True)
     data = Path(pdf).read_bytes()
     assert data.startswith(b"%PDF") and 2 <= len(re.findall(rb"/Type\s*/Page\b", data)) <= 20

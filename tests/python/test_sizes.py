@@ -6,18 +6,17 @@ import csv
 
 import numpy as np
 import pytest
-from synthetic import BOX, random_frame, write_run
-
 from clusterdem import class_shares, size_summary
 from clusterdem.compare import as_text, compare, moment_of
 from clusterdem.enginelog import read_log
 from clusterdem.errors import InputError
 from clusterdem.frame import Frame
-from clusterdem.nonuniformity import lateral, measure, strips
 from clusterdem.grid import Grid, maps_of
+from clusterdem.nonuniformity import lateral, measure, strips
 from clusterdem.published import CASES
 from clusterdem.series import event_rates, read_series
 from clusterdem.sizes import fine_edges, histogram
+from synthetic import BOX, random_frame, write_run
 
 
 def test_summary_of_known_sizes():
@@ -61,7 +60,9 @@ def test_a_run_that_is_row_a_agrees_with_row_a(case):
 
 def test_compare_command_and_rows(tmp_path, command):
     dumps = write_run(tmp_path, 2)
-    code, out, _ = command("compare", *dumps, "--case", "case1", "--out", tmp_path / "t.txt", "--rows", "paper", "row E")
+    code, out, _ = command(
+        "compare", *dumps, "--case", "case1", "--out", tmp_path / "t.txt", "--rows", "paper", "row E"
+    )
     assert code == 0 and "row E" in out and (tmp_path / "t.txt").read_text() in out
     code, _, err = command("compare", *dumps, "--case", "case3", "--rows", "row Q")
     assert code == 2 and "row Q" in err

@@ -22,7 +22,10 @@ def parser() -> argparse.ArgumentParser:
         name = module.__name__.rpartition(".")[2]
         summary = (module.__doc__ or "").strip()
         sub = commands.add_parser(
-            name, help=summary.splitlines()[0], description=summary, formatter_class=argparse.RawDescriptionHelpFormatter
+            name,
+            help=summary.splitlines()[0],
+            description=summary,
+            formatter_class=argparse.RawDescriptionHelpFormatter,
         )
         module.add_arguments(sub)
         sub.set_defaults(run=module.run)

@@ -139,7 +139,9 @@ def compare(moments: Iterable[Moment], case: str, rows: Sequence[str] = ("paper"
     for i, name in ((0, "smallest"), (1, "largest")):
         value = nothing if end is None else 1e6 * (end.sizes.smallest, end.sizes.largest)[i]
         limit = 1e6 * DIAMETER_RANGE[i]
-        line(f"{name} d at {END:g} s", "µm", value, ((limit, limit) if row.name == "paper" else None for row in sources))
+        line(
+            f"{name} d at {END:g} s", "µm", value, ((limit, limit) if row.name == "paper" else None for row in sources)
+        )
     for time in sorted({t for row in sources for t in row.fraction}):
         moment = _at(moments, time)
         fraction = nothing if moment is None else 100 * PAPER_SCALE * moment.fraction
@@ -177,7 +179,9 @@ def verdicts(end: Moment | None, rows: Sequence[Row], case: str) -> list[str]:
             tests.append((f"share {name} µm", max(low - share, share - high, 0.0), 5.0, "points"))
         agree = [name for name, apart, limit, _ in tests if apart <= limit]
         differ = [f"{name} ({apart:.3g} {unit} away)" for name, apart, limit, unit in tests if apart > limit]
-        said.append(f"{row.name}: agrees in {', '.join(agree) or 'nothing'}; differs in {', '.join(differ) or 'nothing'}.")
+        said.append(
+            f"{row.name}: agrees in {', '.join(agree) or 'nothing'}; differs in {', '.join(differ) or 'nothing'}."
+        )
     if case == "case3":
         d = end.strips
         rises = all(a < b for a, b in zip(d, d[1:]))
@@ -215,9 +219,7 @@ def show_difference(line: Line, source: int) -> str:
     return f"{value:+.1f} {'pt' if line.in_points else '%'}"
 
 
-FOOTNOTE = (
-    "* on the 30 x 30 grid and the paper's scale: its printed fractions are ten times the true ones in a slab 3 mm thick."
-)
+FOOTNOTE = "* on the 30 x 30 grid and the paper's scale: its printed fractions are ten times the true ones in a slab 3 mm thick."
 
 
 def table(comparison: Comparison) -> list[list[str]]:

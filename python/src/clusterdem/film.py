@@ -64,8 +64,8 @@ def picture(frame: Frame, grid: Grid, scales: Scales, method: str, rho_p: float,
         figure.set_dpi(dpi)
         canvas = figure.canvas
         assert isinstance(canvas, FigureCanvasAgg)
-        canvas.draw()
-        pixels = np.asarray(canvas.buffer_rgba())[..., :3]
+        canvas.draw()  # type: ignore[no-untyped-call]
+        pixels = np.asarray(canvas.buffer_rgba())[..., :3]  # type: ignore[no-untyped-call]
     height, width = (side - side % 2 for side in pixels.shape[:2])
     return np.ascontiguousarray(pixels[:height, :width])
 

@@ -221,7 +221,9 @@ def maps_of(frame: Frame, grid: Grid, method: str = "nearest", rho_p: float = RH
             shared_mass = frame.mass if shares.cluster is None else frame.mass[shares.cluster]
             if shares.weight is not None:
                 shared_mass = shared_mass * shares.weight
-            square = np.bincount(shares.cell, shared_mass * (own - per_cluster) ** 2, grid.nx * grid.nz)
+            square: Floats = np.bincount(shares.cell, shared_mass * (own - per_cluster) ** 2, grid.nx * grid.nz).astype(
+                np.float64, copy=False
+            )
             temperature += _ratio(square.reshape(grid.shape), mass) / 2
             maps[f"velocity_{axis}"] = mean
         maps["temperature"] = np.where(several, temperature, np.nan)

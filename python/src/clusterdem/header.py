@@ -63,7 +63,9 @@ def number(text: bytes) -> float:
 def _box(source: LineSource, flags: list[str]) -> Box:
     boundary = [flag for flag in flags if len(flag) == 2 and set(flag) <= set("pfsm")]
     if len(boundary) != len(flags) or len(boundary) not in (0, 3):
-        raise InputError(source.path, "only an orthogonal box can be read: BOX BOUNDS pp pp pp or the like", source.line)
+        raise InputError(
+            source.path, "only an orthogonal box can be read: BOX BOUNDS pp pp pp or the like", source.line
+        )
     bounds = []
     for axis in "xyz":
         try:
@@ -71,7 +73,9 @@ def _box(source: LineSource, flags: list[str]) -> Box:
         except ValueError:
             raise InputError(source.path, f"box bounds along {axis} must be two numbers", source.line) from None
         if not (1e-6 <= hi - lo <= 1e6 and abs(lo) <= 1e6):
-            raise InputError(source.path, f"the box must be 1e-6 to 1e6 m long along {axis}, lower bound first", source.line)
+            raise InputError(
+                source.path, f"the box must be 1e-6 to 1e6 m long along {axis}, lower bound first", source.line
+            )
         bounds.append((lo, hi))
     periodic = [flag == "pp" for flag in boundary] or [True, True, True]
     (xlo, xhi), (ylo, yhi), (zlo, zhi) = bounds
@@ -97,7 +101,9 @@ def read_header(source: LineSource) -> Header | None:
         try:
             words = item[6:].decode("ascii").split()
         except UnicodeDecodeError:
-            raise InputError(source.path, "not a text dump: the header holds bytes that are no ASCII", source.line) from None
+            raise InputError(
+                source.path, "not a text dump: the header holds bytes that are no ASCII", source.line
+            ) from None
         name = " ".join(words)
         if name == "UNITS":
             units = source.readline().strip()

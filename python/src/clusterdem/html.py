@@ -54,9 +54,11 @@ def bullets(items: Iterable[str]) -> str:
 
 def facts(pairs: Iterable[tuple[str, str]]) -> str:
     """Key figures, name and value."""
-    return '<dl class="facts">\n' + "".join(
-        f"<div><dt>{escape(name)}</dt><dd>{escape(value)}</dd></div>\n" for name, value in pairs
-    ) + "</dl>\n"
+    return (
+        '<dl class="facts">\n'
+        + "".join(f"<div><dt>{escape(name)}</dt><dd>{escape(value)}</dd></div>\n" for name, value in pairs)
+        + "</dl>\n"
+    )
 
 
 def table(rows: Sequence[Sequence[str]]) -> str:

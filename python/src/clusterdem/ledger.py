@@ -51,7 +51,9 @@ def totals_of(frame: Frame) -> Totals:
 def statements(totals: Sequence[Totals]) -> list[str]:
     """Whether mass and particles stayed, in words."""
     mass = max(abs(t.mass / totals[0].mass - 1) for t in totals)
-    said = [f"Mass: largest change {mass:.1e} of the first frame's ({'conserved' if mass < 1e-9 else 'NOT conserved'})."]
+    said = [
+        f"Mass: largest change {mass:.1e} of the first frame's ({'conserved' if mass < 1e-9 else 'NOT conserved'})."
+    ]
     counts = {t.particles for t in totals if t.particles is not None}
     if len(counts) == 1:
         said.append(f"Primary particles: {counts.pop():,} in every frame (conserved exactly).")

@@ -108,19 +108,21 @@ def draw_maps(maps: Sequence[Floats], labels: Sequence[str], grid: Grid, field: 
         under = bool(np.nanmin(stack, initial=np.inf) < norm.vmin) if norm.vmin is not None else False
         extend = {(False, False): "neither", (True, False): "max", (False, True): "min", (True, True): "both"}
         bar = figure.colorbar(image, ax=list(axes), extend=extend[(over, under)], aspect=25, pad=0.02, fraction=0.06)
-        bar.outline.set_linewidth(0.5)  # type: ignore[operator]
+        bar.outline.set_linewidth(0.5)
         if field.name == "fraction":
             bar.ax.yaxis.set_ticks_position("left")
             second = bar.ax.secondary_yaxis(
-                "right", functions=(lambda v: PAPER_SCALE * v, lambda v: np.asarray(v) / PAPER_SCALE)
+                "right", functions=(lambda v: PAPER_SCALE * np.asarray(v), lambda v: np.asarray(v) / PAPER_SCALE)
             )
             second.set_ylabel("solids volume fraction (%)")
             for place, side, text in ((-0.3, "right", "true"), (1.3, "left", "paper's\nscale, ×10")):
                 bar.ax.text(place, 1.03, text, ha=side, va="bottom", fontsize=7, transform=bar.ax.transAxes)
         else:
             bar.set_label(field.label)
-        if isinstance(norm, TwoSlopeNorm):  # its two sides have scales of their own
+        if (
+            isinstance(norm, TwoSlopeNorm) and norm.vmin is not None and norm.vmax is not None
+        ):  # its two sides have scales of their own
             below, above = MaxNLocator(3).tick_values(norm.vmin, 0), MaxNLocator(5).tick_values(0, norm.vmax)
-            ticks = [t for t in (*below[:-1], *above) if norm.vmin <= t <= norm.vmax]
+            ticks = [float(t) for t in (*below[:-1], *above) if norm.vmin <= t <= norm.vmax]
             bar.set_ticks(ticks, labels=[f"{t:g}".replace("-", "−") for t in ticks])
     return figure

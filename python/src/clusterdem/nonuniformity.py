@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .frame import Floats, Frame
 from .grid import Grid, cell_of
@@ -101,17 +102,22 @@ class Profile:
     count: Floats
 
 
+def _sums(where: NDArray[np.int64], values: Floats, bins: int) -> Floats:
+    return np.bincount(where, values, bins).astype(np.float64, copy=False)
+
+
 def _profile(place: Floats, edges: Floats, volume: float, frame: Frame, rho_p: float) -> Profile:
     bins = len(edges) - 1
     where = np.clip(np.searchsorted(edges, place, side="right") - 1, 0, bins - 1)
     count = np.bincount(where, minlength=bins).astype(np.float64)
-    mass = np.bincount(where, frame.mass, bins)
+    mass = _sums(where, frame.mass, bins)
 
     def mean(total: Floats, weight: Floats) -> Floats:
-        return np.divide(total, weight, out=np.full(bins, np.nan), where=weight > 0)
+        out: Floats = np.divide(total, weight, out=np.full(bins, np.nan), where=weight > 0)
+        return out
 
-    velocity = mean(np.bincount(where, frame.mass * frame["vz"], bins), mass) if "vz" in frame else None
-    diameter = mean(np.bincount(where, frame.diameter, bins), count)
+    velocity = mean(_sums(where, frame.mass * frame["vz"], bins), mass) if "vz" in frame else None
+    diameter = mean(_sums(where, frame.diameter, bins), count)
     return Profile(edges, mass / (rho_p * volume), velocity, diameter, count)
 
 

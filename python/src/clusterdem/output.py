@@ -60,5 +60,5 @@ def write_csv(path: str | Path, heading: Sequence[str], rows: Iterable[Sequence[
 def write_npz(path: str | Path, arrays: Mapping[str, NDArray[np.generic] | float | int]) -> Path:
     """Write arrays to an .npz file; the same arrays give the same bytes."""
     with atomic(path) as name:
-        np.savez(name, **{key: np.asarray(value) for key, value in arrays.items()})
+        np.savez(name, **{key: np.asarray(value) for key, value in arrays.items()})  # type: ignore[arg-type]
     return Path(path)

@@ -120,10 +120,9 @@ def over_frames(
         result.heads.append(head)
         result.values.append(value)
     if comm is not None:
-        error, kept = comm.bcast((result.error, len(result.heads)))
-        result.error = error
-        if kept == 0 and error is not None:
-            raise error
+        result.error, kept = comm.bcast((result.error, len(result.heads)))
+        if kept == 0 and result.error is not None:
+            raise result.error
     elif result.error is not None and not result.heads:
         raise result.error
     return result

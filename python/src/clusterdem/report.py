@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from html import escape
 from pathlib import Path
 
 import numpy as np
@@ -123,7 +124,9 @@ def _page(
         last = _reread(heads[i], dt)
         correlation = pair_correlation(last) if i in (chosen[0], chosen[len(chosen) // 2], chosen[-1]) else None
         bins = histogram(last.diameter, last.mass, fine_edges())
-        shown.append(Shown(last.label, maps_of(last, grid, rho_p=rho_p), lateral(last, shape[0], rho_p), bins, correlation))
+        shown.append(
+            Shown(last.label, maps_of(last, grid, rho_p=rho_p), lateral(last, shape[0], rho_p), bins, correlation)
+        )
     assert last is not None
     parts = [_head(run, found, case, log)]
     if case is not None and not any(math.isnan(head.time) for head in heads):
@@ -149,9 +152,11 @@ def _head(run: RunFolder, found: Gathered[Summary], case: str | None, log: Engin
     ]
     if log.loop:
         numbers.append(("time in the loop", f"{log.loop:.0f} s on {log.ranks} rank{'s' if log.ranks != 1 else ''}"))
-    text = f"<h1>Run {html.escape(run.name)}</h1>\n" + html.paragraph(about, "lead") + html.facts(numbers)
+    text = f"<h1>Run {escape(run.name)}</h1>\n" + html.paragraph(about, "lead") + html.facts(numbers)
     if found.error is not None:
-        text += html.paragraph(f"Not all frames could be read; those before are shown. {Path(found.error.path).name}: {found.error.rule}")
+        text += html.paragraph(
+            f"Not all frames could be read; those before are shown. {Path(found.error.path).name}: {found.error.rule}"
+        )
     return text
 
 
@@ -161,8 +166,11 @@ def _comparison(values: Sequence[Summary], case: str) -> str:
         "<h2>Beside the published numbers</h2>\n"
         + html.bullets(result.verdicts)
         + html.table(comparison_table(result))
-        + html.paragraph("paper: the published values. row A: an independent prototype of the same reading, span over seeds; "
-                         "differences are to the middle of a span, of shares in points (pt).", "note")
+        + html.paragraph(
+            "paper: the published values. row A: an independent prototype of the same reading, span over seeds; "
+            "differences are to the middle of a span, of shares in points (pt).",
+            "note",
+        )
         + html.paragraph(FOOTNOTE, "note")
         + html.paragraph(f"What the paper says in words: {result.statement}", "note")
     )
@@ -189,21 +197,39 @@ def _sizes(found: Gathered[Summary], shown: Sequence[Shown], last: Frame) -> str
     sizes = [value.moment.sizes for value in found.values]
     times = np.array([head.time for head in found.heads])
     steps = np.array([head.step for head in found.heads])
-    rows = [["frame", "clusters", "mean", "Sauter", "mean by mass", "smallest", "largest", *(f"{c} (%)" for c in CLASS_NAMES)]]
+    rows = [
+        [
+            "frame",
+            "clusters",
+            "mean",
+            "Sauter",
+            "mean by mass",
+            "smallest",
+            "largest",
+            *(f"{c} (%)" for c in CLASS_NAMES),
+        ]
+    ]
     for i in panels_of(len(sizes), 12):
         s = sizes[i]
         means = [f"{1e6 * d:.1f}" for d in (s.mean, s.sauter, s.mass_mean, s.smallest, s.largest)]
         rows.append([found.heads[i].label, f"{s.count:,}", *means, *(f"{c:.2f}" for c in s.classes)])
     return (
         "<h2>Sizes</h2>\n"
-        + html.picture(draw_sizes(times, steps, sizes), "Number of clusters, mean diameters, and the paper's four size classes by number.")
+        + html.picture(
+            draw_sizes(times, steps, sizes),
+            "Number of clusters, mean diameters, and the paper's four size classes by number.",
+        )
         + html.picture(
             draw_histograms(fine_edges(), [s.histogram for s in shown], [s.label for s in shown]),
             "Size distribution by number and by mass in bins of 50 µm; dotted lines: borders of the four classes.",
         )
         + html.table(rows)
         + html.paragraph("Diameters in µm; shares in percent of clusters by number.", "note")
-        + html.picture(draw_scatter(last), "The clusters of the last frame as discs of their true size; right: the framed window.", "medium")
+        + html.picture(
+            draw_scatter(last),
+            "The clusters of the last frame as discs of their true size; right: the framed window.",
+            "medium",
+        )
     )
 
 
@@ -215,7 +241,9 @@ def _events(run: RunFolder) -> str:
         return ""
     caption = "The engine's own count of clusters, and the rates of breakups and merges between its reports."
     text = "<h2>Events</h2>\n" + html.picture(draw_series(series, event_rates(series)), caption)
-    totals = [(name, f"{series[name][-1]:,.0f}") for name in ("breakups", "merges", "born", "deferred") if name in series]
+    totals = [
+        (name, f"{series[name][-1]:,.0f}") for name in ("breakups", "merges", "born", "deferred") if name in series
+    ]
     return text + (html.facts(totals) if totals else "")
 
 
@@ -223,13 +251,35 @@ def _uniformity(found: Gathered[Summary], shown: Sequence[Shown]) -> str:
     times = np.array([head.time for head in found.heads])
     steps = np.array([head.step for head in found.heads])
     values = [value.uniformity for value in found.values]
-    rows = [["frame", "largest (%)", "smallest (%)", "mean (%)", "deviation (%)", "by chance (%)", "dispersion", "by number", "dense share (%)"]]
+    rows = [
+        [
+            "frame",
+            "largest (%)",
+            "smallest (%)",
+            "mean (%)",
+            "deviation (%)",
+            "by chance (%)",
+            "dispersion",
+            "by number",
+            "dense share (%)",
+        ]
+    ]
     for i in panels_of(len(values), 12):
         u = values[i]
         percent = [f"{100 * v:.4f}" for v in (u.largest, u.smallest, u.mean, u.deviation, u.poisson)]
-        rows.append([found.heads[i].label, *percent, f"{u.dispersion:.3f}", f"{u.number_dispersion:.3f}", f"{100 * u.dense_share:.2f}"])
+        rows.append(
+            [
+                found.heads[i].label,
+                *percent,
+                f"{u.dispersion:.3f}",
+                f"{u.number_dispersion:.3f}",
+                f"{100 * u.dense_share:.2f}",
+            ]
+        )
     last = values[-1]
-    side = "more uneven than" if last.dispersion > 1.1 else "more even than" if last.dispersion < 0.9 else "as uneven as"
+    side = (
+        "more uneven than" if last.dispersion > 1.1 else "more even than" if last.dispersion < 0.9 else "as uneven as"
+    )
     curves = [(s.correlation, s.label) for s in shown if s.correlation is not None]
     return (
         "<h2>How evenly they lie</h2>\n"
@@ -256,7 +306,18 @@ def _uniformity(found: Gathered[Summary], shown: Sequence[Shown]) -> str:
 
 def _ledger(run: RunFolder, found: Gathered[Summary]) -> str:
     totals = [value.totals for value in found.values]
-    rows = [["frame", "clusters", "particles", "mass (kg)", "change of mass", "momentum x (kg m/s)", "momentum z (kg m/s)", "kinetic energy (J)"]]
+    rows = [
+        [
+            "frame",
+            "clusters",
+            "particles",
+            "mass (kg)",
+            "change of mass",
+            "momentum x (kg m/s)",
+            "momentum z (kg m/s)",
+            "kinetic energy (J)",
+        ]
+    ]
     for i in panels_of(len(totals), 12):
         t = totals[i]
         particles = "-" if t.particles is None else f"{t.particles:,}"
@@ -270,12 +331,17 @@ def _ledger(run: RunFolder, found: Gathered[Summary]) -> str:
         series = read_series(run.series)
         if "particles" in series:
             low, high = int(series["particles"].min()), int(series["particles"].max())
-            said.append(f"The engine's own count of particles: {low:,}" + (" throughout." if low == high else f" to {high:,} (NOT conserved)."))
+            said.append(
+                f"The engine's own count of particles: {low:,}"
+                + (" throughout." if low == high else f" to {high:,} (NOT conserved).")
+            )
         if "E_merge" in series:
             said.append(f"Kinetic energy lost in merges: {series['E_merge'][-1]:.4g} J.")
         if "E_birth" in series:
             energy, kinetic = series["E_birth"][-1], totals[-1].kinetic
-            said.append(f"Elastic energy put in by births: {energy:.4g} J ({abs(energy) / kinetic:.1e} of the kinetic energy at the end).")
+            said.append(
+                f"Elastic energy put in by births: {energy:.4g} J ({abs(energy) / kinetic:.1e} of the kinetic energy at the end)."
+            )
     note = "Gas and gravity change momentum and kinetic energy; mass and particles must stay."
     return "<h2>Conservation ledger</h2>\n" + html.bullets(said) + html.table(rows) + html.paragraph(note, "note")
 
@@ -285,10 +351,16 @@ def _engine(log: EngineLog) -> str:
         return ""
     total = sum(log.phases.values())
     rows = [["phase", "time (s)", "share (%)"]]
-    rows += [[name, f"{t:.2f}", f"{100 * t / total:.1f}"] for name, t in sorted(log.phases.items(), key=lambda item: -item[1])]
+    rows += [
+        [name, f"{t:.2f}", f"{100 * t / total:.1f}"]
+        for name, t in sorted(log.phases.items(), key=lambda item: -item[1])
+    ]
     text = "<h2>Engine time</h2>\n" + html.picture(draw_phases(log.phases), "Time of the engine by phase.", "small")
     text += html.table(rows)
-    text += html.paragraph(f"{log.steps:,} steps, {log.loop:.1f} s in the loop, {log.ranks} ranks, wall time {log.wall or 'unknown'}.", "note")
+    text += html.paragraph(
+        f"{log.steps:,} steps, {log.loop:.1f} s in the loop, {log.ranks} ranks, wall time {log.wall or 'unknown'}.",
+        "note",
+    )
     return text
 
 

@@ -12,7 +12,9 @@ from .frame import Floats
 from .header import LARGEST, number
 
 
-def parse_rows(block: bytes, count: int, names: Sequence[str], wanted: Sequence[int], path: str, first: int) -> list[Floats]:
+def parse_rows(
+    block: bytes, count: int, names: Sequence[str], wanted: Sequence[int], path: str, first: int
+) -> list[Floats]:
     """Turn a block of rows into columns.
 
     Parameters
@@ -67,7 +69,9 @@ def _fast(block: bytes, count: int, width: int, wanted: Sequence[int]) -> list[F
     return columns
 
 
-def _careful(block: bytes, count: int, names: Sequence[str], wanted: Sequence[int], path: str, first: int) -> list[Floats]:
+def _careful(
+    block: bytes, count: int, names: Sequence[str], wanted: Sequence[int], path: str, first: int
+) -> list[Floats]:
     """Row by row, any white space, naming the first line that breaks a rule."""
     lines = block.splitlines() if b"\r" in block else block.split(b"\n")
     if lines and not lines[-1]:

@@ -43,12 +43,16 @@ def colouring_of(low: float, high: float, by: str) -> Colouring:
     return Colouring(label, "viridis", Normalize(low, high))
 
 
+def _within(value: float, norm: Normalize) -> bool:
+    return norm.vmin is not None and norm.vmax is not None and norm.vmin <= value <= norm.vmax
+
+
 def colour_bar(figure: Figure, discs: Any, axes: Any, colours: Colouring) -> None:
     """The colour bar of discs."""
     bar = figure.colorbar(discs, ax=axes, aspect=30, pad=0.02)
     bar.set_label(colours.label)
     if isinstance(colours.norm, LogNorm):
-        ticks = [t for t in (100, 200, 300, 400, 600, 900, 1200, 1600) if colours.norm.vmin <= t <= colours.norm.vmax]
+        ticks = [t for t in (100, 200, 300, 400, 600, 900, 1200, 1600) if _within(t, colours.norm)]
         bar.set_ticks(ticks, labels=[str(t) for t in ticks])
         bar.minorticks_off()
 

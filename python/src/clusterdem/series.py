@@ -12,7 +12,6 @@ from .header import number
 from .streams import open_lines
 
 
-
 def read_series(path: str | Path) -> dict[str, Floats]:
     """Read a table: comment lines first, the last of them names the columns.
 

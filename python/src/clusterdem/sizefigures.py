@@ -67,9 +67,7 @@ def draw_sizes(times: Floats, steps: NDArray[np.int64], sizes: Sequence[Sizes]) 
     return figure
 
 
-def draw_histograms(
-    edges: Floats, histograms: Sequence[tuple[Floats, Floats]], labels: Sequence[str], most: int = 6
-) -> Figure:
+def draw_histograms(edges: Floats, histograms: Sequence[tuple[Floats, Floats]], labels: Sequence[str]) -> Figure:
     """Fine histograms by number and by mass, a line per frame, with the paper's class borders.
 
     Parameters
@@ -84,7 +82,7 @@ def draw_histograms(
     with styled():
         figure = new_figure(WIDTH, 2.6)
         axes = figure.subplots(1, 2, sharex=True)
-        chosen = panels_of(len(histograms), most)
+        chosen = panels_of(len(histograms))
         colours = colormaps["viridis"](np.linspace(0.0, 0.92, len(chosen)))
         for which, (axis, title) in enumerate(zip(axes, ("by number", "by mass"))):
             for colour, i in zip(colours, chosen):

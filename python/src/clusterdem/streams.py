@@ -13,7 +13,7 @@ import zstandard
 
 from .errors import InputError
 
-CHUNK = 1 << 24
+CHUNK = 1 << 22
 
 
 class LineSource:

@@ -50,5 +50,7 @@ def new_figure(width: float, height: float, layout: Literal["constrained", "comp
 def save(figure: Figure, path: str | Path, dpi: float | None = None) -> Path:
     """Write a figure whole or not at all."""
     with atomic(path) as name:
-        figure.savefig(name, dpi=dpi or RC["savefig.dpi"], metadata={"Software": "clusterdem"} if name.suffix == ".png" else None)
+        figure.savefig(
+            name, dpi=dpi or RC["savefig.dpi"], metadata={"Software": "clusterdem"} if name.suffix == ".png" else None
+        )
     return Path(path)

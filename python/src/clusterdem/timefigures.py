@@ -31,13 +31,17 @@ def draw_uniformity(times: Floats, steps: NDArray[np.int64], found: Sequence[Uni
             extremes.plot(t, values, mark + "-", color=COLOURS[colour], label=name, markersize=3)
         extremes.set_ylabel("cell solids fraction, true (%)")
         extremes.set_ylim(0, 130 * max(u.largest for u in found))
-        extremes.legend(frameon=False, ncols=3, loc="upper left", columnspacing=0.6, handlelength=0.8, handletextpad=0.3)
+        extremes.legend(
+            frameon=False, ncols=3, loc="upper left", columnspacing=0.6, handlelength=0.8, handletextpad=0.3
+        )
         right = extremes.secondary_yaxis(
             "right", functions=(lambda v: PAPER_SCALE * np.asarray(v), lambda v: np.asarray(v) / PAPER_SCALE)
         )
         right.set_ylabel("paper's scale, ×10 (%)")
         dispersion.plot(t, [u.dispersion for u in found], "o-", color=COLOURS[0], label="by mass", markersize=3)
-        dispersion.plot(t, [u.number_dispersion for u in found], "s-", color=COLOURS[1], label="by number", markersize=3)
+        dispersion.plot(
+            t, [u.number_dispersion for u in found], "s-", color=COLOURS[1], label="by number", markersize=3
+        )
         dispersion.axhline(1.0, color="0.4", linewidth=0.8, linestyle="--", label="chance (Poisson)")
         dispersion.set_ylabel("index of dispersion")
         dispersion.set_ylim(0, 1.35 * max(1.0, *(max(u.dispersion, u.number_dispersion) for u in found)))
@@ -69,7 +73,9 @@ def draw_lateral(profiles: Sequence[Profile], labels: Sequence[str]) -> Figure:
             if np.nanmin(np.concatenate(lines)) >= 0:
                 axis.set_ylim(bottom=0)
             axis.margins(x=0)
-        figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=len(labels), frameon=False)
+        figure.legend(
+            *axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=len(labels), frameon=False
+        )
     return figure
 
 

@@ -14,7 +14,7 @@ from .frame import Floats, Frame
 from .grid import Grid
 from .output import write_text
 
-TYPES = {np.dtype(np.float64): "Float64", np.dtype(np.int64): "Int64"}
+TYPES = {"f": "Float64", "i": "Int64"}
 
 
 def _array(name: str, values: NDArray[np.generic]) -> str:
@@ -22,7 +22,7 @@ def _array(name: str, values: NDArray[np.generic]) -> str:
     values = np.ascontiguousarray(values)
     raw = np.uint64(values.nbytes).tobytes() + values.tobytes()
     parts = f' NumberOfComponents="{values.shape[1]}"' if values.ndim == 2 else ""
-    kind = TYPES[values.dtype]
+    kind = TYPES[values.dtype.kind]
     return f'<DataArray type="{kind}" Name={quoteattr(name)}{parts} format="binary">{base64.b64encode(raw).decode()}</DataArray>\n'
 
 
@@ -56,9 +56,9 @@ def write_points(path: str | Path, frame: Frame) -> Path:
         data += _array(name, np.rint(values).astype(np.int64) if whole else values)
     index = np.arange(count, dtype=np.int64)
     body = (
-        f'<PolyData>\n<FieldData>{_array("TimeValue", np.array([frame.time]))}</FieldData>\n'
+        f"<PolyData>\n<FieldData>{_array('TimeValue', np.array([frame.time]))}</FieldData>\n"
         f'<Piece NumberOfPoints="{count}" NumberOfVerts="{count}">\n'
-        f"<PointData Scalars=\"diameter\">\n{data}</PointData>\n"
+        f'<PointData Scalars="diameter">\n{data}</PointData>\n'
         f"<Points>\n{_array('Points', np.stack([frame.x, y, frame.z], axis=1))}</Points>\n"
         f"<Verts>\n{_array('connectivity', index)}{_array('offsets', index + 1)}</Verts>\n"
         "</Piece>\n</PolyData>\n"
@@ -85,7 +85,7 @@ def write_image(path: str | Path, maps: Mapping[str, Floats], grid: Grid, time: 
     data = "".join(_array(name, values.T.ravel()) for name, values in maps.items())
     body = (
         f'<ImageData WholeExtent="{extent}" Origin="{x!r} {y!r} {z!r}" Spacing="{dx!r} {grid.box.lengths[1]!r} {dz!r}">\n'
-        f'<FieldData>{_array("TimeValue", np.array([time]))}</FieldData>\n'
+        f"<FieldData>{_array('TimeValue', np.array([time]))}</FieldData>\n"
         f'<Piece Extent="{extent}">\n<CellData Scalars="fraction">\n{data}</CellData>\n</Piece>\n</ImageData>\n'
     )
     return write_text(path, _file("ImageData", body))
@@ -101,5 +101,7 @@ def write_series(path: str | Path, entries: Iterable[tuple[float, str]]) -> Path
     entries : iterable of (float, str)
         Time (s) and file name, relative to the .pvd file.
     """
-    lines = "".join(f'<DataSet timestep="{time!r}" group="" part="0" file={quoteattr(name)}/>\n' for time, name in entries)
+    lines = "".join(
+        f'<DataSet timestep="{time!r}" group="" part="0" file={quoteattr(name)}/>\n' for time, name in entries
+    )
     return write_text(path, _file("Collection", f"<Collection>\n{lines}</Collection>\n"))

@@ -26,12 +26,16 @@ def add_dumps(parser: argparse.ArgumentParser) -> None:
 
 def add_density(parser: argparse.ArgumentParser) -> None:
     """The density of the primary particles."""
-    parser.add_argument("--rho", type=positive, default=RHO_P, metavar="KG/M3", help="density of the primary particles (default 2000)")
+    parser.add_argument(
+        "--rho", type=positive, default=RHO_P, metavar="KG/M3", help="density of the primary particles (default 2000)"
+    )
 
 
 def add_grid(parser: argparse.ArgumentParser) -> None:
     """The grid and how clusters are put on it."""
-    parser.add_argument("--grid", type=int, nargs=2, default=(30, 30), metavar=("NX", "NZ"), help="cells along x and z (default 30 30)")
+    parser.add_argument(
+        "--grid", type=int, nargs=2, default=(30, 30), metavar=("NX", "NZ"), help="cells along x and z (default 30 30)"
+    )
     parser.add_argument(
         "--deposit",
         choices=("nearest", "overlap"),

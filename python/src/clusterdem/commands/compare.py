@@ -22,7 +22,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_dumps(parser)
     add_density(parser)
     parser.add_argument("--case", required=True, choices=sorted(CASES), help="the paper's case")
-    parser.add_argument("--rows", nargs="+", default=["paper", "row A"], metavar="ROW", help="sources: paper, 'row A' … 'row E'")
+    parser.add_argument(
+        "--rows", nargs="+", default=["paper", "row A"], metavar="ROW", help="sources: paper, 'row A' … 'row E'"
+    )
     parser.add_argument("--out", type=Path, metavar="FILE", help="also write the table to this file")
 
 

@@ -24,10 +24,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_dumps(parser)
     add_grid(parser)
     add_density(parser)
-    parser.add_argument("--colour", choices=("diameter", "vz", "vx", "speed"), default="diameter", help="what colours the clusters")
+    parser.add_argument(
+        "--colour", choices=("diameter", "vz", "vx", "speed"), default="diameter", help="what colours the clusters"
+    )
     parser.add_argument("--rate", type=positive, default=10.0, metavar="N", help="pictures per second (default 10)")
-    parser.add_argument("--dpi", type=int, default=150, choices=range(50, 601), metavar="N", help="resolution (default 150)")
-    parser.add_argument("--out", type=Path, default=Path("film.mp4"), metavar="FILE", help=".mp4 or .gif (default film.mp4)")
+    parser.add_argument(
+        "--dpi", type=int, default=150, choices=range(50, 601), metavar="N", help="resolution (default 150)"
+    )
+    parser.add_argument(
+        "--out", type=Path, default=Path("film.mp4"), metavar="FILE", help=".mp4 or .gif (default film.mp4)"
+    )
 
 
 def run(options: argparse.Namespace) -> None:

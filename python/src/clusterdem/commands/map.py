@@ -27,7 +27,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_dumps(parser)
     add_grid(parser)
     add_density(parser)
-    parser.add_argument("--out", type=Path, default=Path("maps"), metavar="DIR", help="folder for the results (default maps)")
+    parser.add_argument(
+        "--out", type=Path, default=Path("maps"), metavar="DIR", help="folder for the results (default maps)"
+    )
     parser.add_argument("--no-figures", action="store_true", help="data only")
 
 

@@ -24,9 +24,13 @@ from .common import add_density, add_dumps, finish, tell
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_dumps(parser)
     add_density(parser)
-    parser.add_argument("--bins", type=int, default=30, choices=range(1, 1001), metavar="N", help="strips across x (default 30)")
+    parser.add_argument(
+        "--bins", type=int, default=30, choices=range(1, 1001), metavar="N", help="strips across x (default 30)"
+    )
     parser.add_argument("--no-gr", action="store_true", help="leave out g(r), the slowest part")
-    parser.add_argument("--out", type=Path, default=Path("profile"), metavar="DIR", help="folder for the results (default profile)")
+    parser.add_argument(
+        "--out", type=Path, default=Path("profile"), metavar="DIR", help="folder for the results (default profile)"
+    )
 
 
 def profile_rows(head: Frame, profile: Profile) -> list[tuple[float, ...]]:
@@ -47,16 +51,17 @@ def run(options: argparse.Namespace) -> None:
     if found.root and found.heads:
         out: Path = options.out
         heading = ["step", "time", "from", "to", "fraction", "velocity_z", "mean_diameter", "clusters"]
-        for which, name in ((0, "lateral"), (1, "strips")):
-            rows = [row for head, value in zip(found.heads, found.values) for row in profile_rows(head, value[which])]
+        lateral_profiles = [value[0] for value in found.values]
+        for name, profiles in (("lateral", lateral_profiles), ("strips", [value[1] for value in found.values])):
+            rows = [row for head, profile in zip(found.heads, profiles) for row in profile_rows(head, profile)]
             tell(write_csv(out / f"{name}.csv", heading, rows))
         chosen = panels_of(len(found.heads))
         labels = [found.heads[i].label for i in chosen]
-        tell(save(draw_lateral([found.values[i][0] for i in chosen], labels), out / "lateral.png"))
+        tell(save(draw_lateral([lateral_profiles[i] for i in chosen], labels), out / "lateral.png"))
         curves = [value[2] for value in found.values]
         known = [(head, curve) for head, curve in zip(found.heads, curves) if curve is not None]
         if known:
-            rows = [(h.step, h.time, float(a), float(b)) for h, (r, g) in known for a, b in zip(r, g)]
-            tell(write_csv(out / "gr.csv", ["step", "time", "r", "g"], rows))
+            points = [(h.step, h.time, float(a), float(b)) for h, (r, g) in known for a, b in zip(r, g)]
+            tell(write_csv(out / "gr.csv", ["step", "time", "r", "g"], points))
             tell(save(draw_pair_correlation([known[i][1] for i in chosen], labels), out / "gr.png"))
     finish(found)

@@ -18,7 +18,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("rundir", type=Path, metavar="RUNDIR", help="folder of the run")
     parser.add_argument("--name", help="what the run's files begin with (default: found)")
     parser.add_argument("--case", choices=sorted(CASES), help="published case to compare with (default: by the name)")
-    parser.add_argument("--grid", type=int, nargs=2, default=(30, 30), metavar=("NX", "NZ"), help="cells along x and z (default 30 30)")
+    parser.add_argument(
+        "--grid", type=int, nargs=2, default=(30, 30), metavar=("NX", "NZ"), help="cells along x and z (default 30 30)"
+    )
     parser.add_argument("--dt", type=positive, metavar="S", help="timestep (s), for dumps that hold no time")
     parser.add_argument("--out", type=Path, metavar="FILE", help="the page (default RUNDIR/report.html)")
     add_density(parser)

@@ -15,11 +15,19 @@ from .common import add_dumps, finish, tell
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_dumps(parser)
-    parser.add_argument("--colour", choices=("diameter", "vz", "vx", "speed"), default="diameter", help="what colours the discs")
     parser.add_argument(
-        "--window", type=float, nargs=4, metavar=("X0", "X1", "Z0", "Z1"), help="window (m; default: the middle of the box)"
+        "--colour", choices=("diameter", "vz", "vx", "speed"), default="diameter", help="what colours the discs"
     )
-    parser.add_argument("--out", type=Path, default=Path("scatter"), metavar="DIR", help="folder for the figures (default scatter)")
+    parser.add_argument(
+        "--window",
+        type=float,
+        nargs=4,
+        metavar=("X0", "X1", "Z0", "Z1"),
+        help="window (m; default: the middle of the box)",
+    )
+    parser.add_argument(
+        "--out", type=Path, default=Path("scatter"), metavar="DIR", help="folder for the figures (default scatter)"
+    )
 
 
 def run(options: argparse.Namespace) -> None:

@@ -22,9 +22,15 @@ from .common import add_dumps, finish, positive, tell
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_dumps(parser)
-    parser.add_argument("--bin", type=positive, default=50.0, metavar="UM", help="bin width of the fine histogram (µm, default 50)")
-    parser.add_argument("--top", type=positive, default=1600.0, metavar="UM", help="end of the fine histogram (µm, default 1600)")
-    parser.add_argument("--out", type=Path, default=Path("sizes"), metavar="DIR", help="folder for the results (default sizes)")
+    parser.add_argument(
+        "--bin", type=positive, default=50.0, metavar="UM", help="bin width of the fine histogram (µm, default 50)"
+    )
+    parser.add_argument(
+        "--top", type=positive, default=1600.0, metavar="UM", help="end of the fine histogram (µm, default 1600)"
+    )
+    parser.add_argument(
+        "--out", type=Path, default=Path("sizes"), metavar="DIR", help="folder for the results (default sizes)"
+    )
     parser.add_argument("--no-figures", action="store_true", help="data only")
 
 

@@ -20,7 +20,9 @@ from .common import add_dumps, finish, tell
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_dumps(parser)
     parser.add_argument("--format", choices=("csv", "parquet"), default="csv", help="kind of table (default csv)")
-    parser.add_argument("--out", type=Path, default=Path("table"), metavar="DIR", help="folder for the results (default table)")
+    parser.add_argument(
+        "--out", type=Path, default=Path("table"), metavar="DIR", help="folder for the results (default table)"
+    )
 
 
 def as_table(frame: Frame) -> pl.DataFrame:

@@ -23,7 +23,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_dumps(parser)
     add_grid(parser)
     add_density(parser)
-    parser.add_argument("--out", type=Path, default=Path("vtk"), metavar="DIR", help="folder for the results (default vtk)")
+    parser.add_argument(
+        "--out", type=Path, default=Path("vtk"), metavar="DIR", help="folder for the results (default vtk)"
+    )
 
 
 def run(options: argparse.Namespace) -> None:
