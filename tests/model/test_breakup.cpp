@@ -41,7 +41,9 @@ TEST(Breaks, BeyondTheHysteresisOnly)
   EXPECT_FALSE(breaks(1.25, 1.0, 0.26));
   EXPECT_TRUE(breaks(1.27, 1.0, 0.26));
   EXPECT_FALSE(breaks(0.5, 1.0, 0.26));
-  EXPECT_FALSE(breaks(1.27e-4, 1.0e-4 * 1.1, 0.26)); // the hysteresis is relative to l
+  // the hysteresis is relative to l
+  EXPECT_TRUE(breaks(1.27e-4, 1.0e-4, 0.26));
+  EXPECT_FALSE(breaks(1.27e4, 1.1e4, 0.26));
 }
 
 TEST(BreakPlan, ByHand)
