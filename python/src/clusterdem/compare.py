@@ -158,12 +158,13 @@ def compare(moments: Iterable[Moment], case: str, rows: Sequence[str] = ("paper"
         known.statement,
         tuple(row.name for row in sources),
         tuple(lines),
-        tuple(verdicts(end, known.rows, case)),
+        tuple(verdicts(moments, known.rows, case)),
     )
 
 
-def verdicts(end: Moment | None, rows: Sequence[Row], case: str) -> list[str]:
-    """Plain statements of what agrees at the end: count within 15 %, mean d within 5 %, classes within 5 points."""
+def verdicts(moments: Sequence[Moment], rows: Sequence[Row], case: str) -> list[str]:
+    """Say plainly what agrees: clusters within 15 %, mean d within 5 %, classes within 5 points, densest cell within 20 %."""
+    end = _at(moments, END)
     if end is None:
         return [f"No frame at {END:g} s: the end state cannot be compared."]
     said = []
@@ -171,14 +172,19 @@ def verdicts(end: Moment | None, rows: Sequence[Row], case: str) -> list[str]:
         if row.name not in ("paper", "row A"):
             continue
         tests = []
-        low, high = row.count[END]
-        tests.append(("clusters", _apart(end.sizes.count, (low, high)), 15.0, "%"))
+        for time, span in sorted(row.count.items()):
+            if (moment := _at(moments, time)) is not None:
+                tests.append((f"clusters at {time:g} s", _apart(moment.sizes.count, span), 15.0, "%"))
         if row.mean is not None:
             tests.append(("mean diameter", _apart(end.sizes.mean, row.mean), 5.0, "%"))
         for name, share, (low, high) in zip(CLASS_NAMES, end.sizes.classes, row.classes):
-            tests.append((f"share {name} µm", max(low - share, share - high, 0.0), 5.0, "points"))
-        agree = [name for name, apart, limit, _ in tests if apart <= limit]
-        differ = [f"{name} ({apart:.3g} {unit} away)" for name, apart, limit, unit in tests if apart > limit]
+            apart = share - high if share > high else min(share - low, 0.0)
+            tests.append((f"share {name} µm", apart, 5.0, "points"))
+        for time, span in sorted(row.fraction.items()):
+            if (moment := _at(moments, time)) is not None:
+                tests.append((f"densest cell at {time:g} s", _apart(PAPER_SCALE * moment.fraction, span), 20.0, "%"))
+        agree = [name for name, apart, limit, _ in tests if abs(apart) <= limit]
+        differ = [f"{name} ({apart:+.3g} {unit})" for name, apart, limit, unit in tests if abs(apart) > limit]
         said.append(
             f"{row.name}: agrees in {', '.join(agree) or 'nothing'}; differs in {', '.join(differ) or 'nothing'}."
         )
@@ -193,8 +199,9 @@ def verdicts(end: Moment | None, rows: Sequence[Row], case: str) -> list[str]:
 
 
 def _apart(value: float, span: Span) -> float:
+    """How far a value lies beyond a span, in % of the span's near end; 0 inside."""
     low, high = span
-    return 100 * max((low - value) / low, (value - high) / high, 0.0)
+    return 100 * (value / high - 1 if value > high else min(value / low - 1, 0.0))
 
 
 def _show(value: float) -> str:

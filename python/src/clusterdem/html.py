@@ -35,7 +35,7 @@ th:first-child, td:first-child { text-align: left; }
 thead th { white-space: normal; vertical-align: bottom; border-bottom: 2px solid var(--ink); background: var(--tint); }
 pre { background: var(--tint); padding: 0.75rem; font-size: 0.75rem; line-height: 1.35; overflow: auto; max-height: 24rem; }
 @media (max-width: 40rem) { body { padding: 0.75rem 0.75rem 2rem; } h1 { font-size: 1.35rem; }
-  div.wide > figure { min-width: 36rem; } }
+  div.wide > img { min-width: 36rem; } }
 @media print { body { max-width: none; padding: 0; font-size: 10.5pt; } pre { max-height: none; white-space: pre-wrap; }
   figure, tr, dl.facts div { break-inside: avoid; } h2 { break-after: avoid; } div.wide { overflow: visible; }
   table { font-size: 8pt; } th, td { white-space: normal; padding: 0.15rem 0.3rem; } }
@@ -80,8 +80,8 @@ def picture(figure: Figure, caption: str, kind: str = "") -> str:
     figure.savefig(data, dpi=RC["savefig.dpi"], format="png", metadata={"Software": "clusterdem"})
     source = base64.b64encode(data.getvalue()).decode()
     image = f'<img alt="{escape(caption)}" src="data:image/png;base64,{source}">'
-    block = f'<figure class="{kind}">{image}<figcaption>{escape(caption)}</figcaption></figure>\n'
-    return block if kind else f'<div class="wide">{block}</div>\n'
+    scrolls = image if kind else f'<div class="wide">{image}</div>'
+    return f'<figure class="{kind}">{scrolls}<figcaption>{escape(caption)}</figcaption></figure>\n'
 
 
 def page(title: str, body: str) -> str:

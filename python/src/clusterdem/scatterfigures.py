@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.collections import EllipseCollection
-from matplotlib.colors import Colormap, ListedColormap, LogNorm, Normalize, TwoSlopeNorm
+from matplotlib.colors import Colormap, ListedColormap, LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
@@ -38,9 +38,7 @@ def colouring_of(low: float, high: float, by: str) -> Colouring:
     if by == "diameter":
         return Colouring("cluster diameter (µm)", ON_WHITE, LogNorm(low, high))
     label = {"vz": "$v_z$ (m/s)", "vx": "$v_x$ (m/s)", "speed": "speed (m/s)"}[by]
-    if low < -0.02 * high and high > -0.02 * low:
-        return Colouring(label, "RdBu_r", TwoSlopeNorm(0.0, low, high))
-    return Colouring(label, "viridis", Normalize(low, high))
+    return Colouring(label, ON_WHITE, Normalize(low, high))
 
 
 def _within(value: float, norm: Normalize) -> bool:

@@ -2,8 +2,8 @@
 
 Writes to DIR clusters.STEP.vtp and maps.STEP.vti for each frame, and the two .pvd files. In ParaView draw the points
 with the Point Gaussian representation or a sphere Glyph scaled by the array diameter. OVITO needs no export: it opens
-the dump files themselves (File > Load File, then any one of case1.*.dump: it finds the series, and takes the column
-diameter as the particles' size when it is mapped to Radius with a factor 0.5, or radius as it stands).
+the dumps themselves (Load File, case1.*.dump), finds the series over time, and takes the column diameter (or radius)
+as the size of the particles and n, l and the rest as their properties (checked with OVITO 3.17).
 """
 
 from __future__ import annotations
