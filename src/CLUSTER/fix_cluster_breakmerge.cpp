@@ -124,7 +124,7 @@ void FixClusterBreakMerge::parse(StyleArguments &args)
       k_from_emms = args.next_is("emms");
       if (k_from_emms) args.word("K");
       k_value = k_from_emms ? args.positive("K emms U_p", "velocity")
-                            : args.number("K", "a number [length * power/mass] or emms U_p");
+                            : args.positive("K", "length*power/mass, or emms U_p");
     } else if (keyword == "void") {
       geometry.voidage = args.number(keyword, "a number >= 0 and < 1");
       if (!(geometry.voidage >= 0.0 && geometry.voidage < 1.0)) args.refuse(keyword, "a number >= 0 and < 1");
@@ -188,7 +188,7 @@ void FixClusterBreakMerge::parse(StyleArguments &args)
   if (term_st && drag_id.empty())
     error->all(FLERR, "Illegal fix {} command: the term st needs the keyword drag FIX-ID (or leave st out "
                "of terms)", style);
-  if (term_mf && umf_from_wen_yu && drag_id.empty())
+  if ((term_mf || k_from_emms) && umf_from_wen_yu && drag_id.empty())
     error->all(FLERR, "Illegal fix {} command: umf wen/yu needs the gas of the keyword drag FIX-ID (or give "
                "umf a value)", style);
   const bool cell_reading = (term_st && nst == NstReading::CELL) || (term_mf && up != UpReading::OWN);
@@ -236,12 +236,15 @@ void FixClusterBreakMerge::init()
   u_mf = umf_from_wen_yu && drag
       ? umf_wen_yu(geometry.d_p, geometry.rho_p, drag->gas_properties(), gravity) : umf_value;
   k = k_from_emms ? k_emms(geometry.d_p, k_value, u_mf, eps_mf, gravity) : k_value;
+  if (!(k > 0.0))
+    error->all(FLERR, "{}: K emms {} gives K = {}: U_p must be above {} (so that U_p/(1 - 0.9997) exceeds "
+               "the minimum fluidization)", me, k_value, k, u_mf * 3.0e-4);
 
   pairs.find(me, groupbit, geometry.diameter(limits.hi));
   check_room();
   const double finest = spacing * geometry.diameter(limits.lo);
-  lattice = planar ? std::make_unique<ClusterDEM::Lattice>(0, 2, claim_max / finest + 1.0)
-                   : std::make_unique<ClusterDEM::Lattice>(-1, -1, claim_max / finest + 1.0);
+  lattice = planar ? std::make_unique<ClusterDEM::Lattice>(0, 2, 2.0 * claim_max / finest + 1.0)
+                   : std::make_unique<ClusterDEM::Lattice>(-1, -1, 2.0 * claim_max / finest + 1.0);
 }
 
 /* ----------------------------------------------------------------------
@@ -281,7 +284,12 @@ void FixClusterBreakMerge::check_room()
 {
   const double largest = geometry.diameter(limits.hi);
   if (claim_max < largest)
-    error->all(FLERR, "Fix {} {}: claim {} is below the largest cluster diameter {}", style, id, claim_max, largest);
+    error->all(FLERR, "Fix {} {}: claim {} [length] is below the largest cluster diameter {}: use a larger claim "
+               "or a lower upper limit", style, id, claim_max, largest);
+  const double halves = 0.5 * (spacing + 1.0) * geometry.diameter(0.5 * limits.hi);
+  if (breaking && claim_max < halves)
+    error->all(FLERR, "Fix {} {}: claim {} [length] is below {}, the room that two halves of the largest cluster "
+               "need at spacing {}: the largest could never break", style, id, claim_max, halves, spacing);
   const double needed = 2.0 * claim_max + neighbor->skin;
   const double have = MAX(force->pair->cutforce + neighbor->skin, comm->cutghostuser);
   if (have < needed * (1.0 - 1.0e-12))
@@ -307,7 +315,9 @@ void FixClusterBreakMerge::setup_pre_exchange()
     mine = MAX(mine, atom->tag[i]);
     if (!(atom->mask[i] & groupbit)) continue;
     count[i] = 0;    // a set command may have changed it
-    particle_count(i);
+    if (particle_count(i) > limits.hi)
+      error->one(FLERR, "Fix {} {}: cluster {} holds {} primary particles, above the upper limit {}: the pair "
+                 "cutoff is made for the largest diameter of the limits", style, id, atom->tag[i], count[i], limits.hi);
   }
   MPI_Allreduce(&mine, &all, 1, MPI_LMP_TAGINT, MPI_MAX, world);
   newborn_tags.raise(all);

@@ -127,8 +127,8 @@ class FixClusterBreakMerge : public Fix {
     int i, j = -1;    // j < 0: no partner
     ClusterDEM::BreakPlan plan;
     ClusterDEM::Placement placement;
-    ClusterDEM::Body body;            // parent, or both combined
-    ClusterDEM::Vec3 omega;           // of the merged cluster
+    ClusterDEM::Body body = {};       // parent, or both combined
+    ClusterDEM::Vec3 omega = {};      // of the merged cluster
     double stiffness = 0.0;           // of the merging contact
     double energy_lost = 0.0;         // kinetic energy that the merge takes out
     double energy_born = 0.0;         // elastic energy that the merged cluster puts in

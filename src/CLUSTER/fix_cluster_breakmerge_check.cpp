@@ -33,12 +33,14 @@ int FixClusterBreakMerge::particle_count(int i)
   const bool right_size = std::fabs(2.0 * atom->radius[i] - d) <= 1.0e-6 * d;
   if (!n.whole || !right_size) {
     const int nearest = MAX(1, static_cast<int>(std::lround(n.exact)));
+    const std::string fault = n.whole
+        ? fmt::format("has diameter {:.10g}, which does not fit its {} primary particles", 2.0 * atom->radius[i], n.n)
+        : fmt::format("has mass {:.10g}, which is {:.2f} primary particles, not a whole number within 1e-6",
+                      atom->rmass[i], n.exact);
     error->one(FLERR,
-               "Fix {} {}: cluster {} has diameter {:.10g} and mass {:.10g}, which is {:.2f} primary particles; "
-               "it must hold a whole number (within 1e-6) at voidage {}: {} particles need diameter {:.10g} "
-               "and density {:.10g}",
-               style, id, atom->tag[i], 2.0 * atom->radius[i], atom->rmass[i], n.exact, geometry.voidage,
-               nearest, geometry.diameter(nearest), geometry.rho_p * (1.0 - geometry.voidage));
+               "Fix {} {}: cluster {} {}: {} particles at voidage {} need diameter {:.10g} and density {:.10g}",
+               style, id, atom->tag[i], fault, nearest, geometry.voidage, geometry.diameter(nearest),
+               geometry.rho_p * (1.0 - geometry.voidage));
   }
   count[i] = n.n;
   array_atom[i][0] = n.n;

@@ -177,7 +177,7 @@ void FixClusterBreakMerge::place(Event &e, const std::vector<Obstacle> &obstacle
     const int wanted = e.plan.pieces();
     e.placement = place_in_stages(e.plan, n, e.plan.n, limits.lo, geometry, *lattice, turn, spacing,
                                   e.reach, obstacles, walls);
-    if (e.placement.found && (e.placement.shifted || e.plan.pieces() < wanted)) totals[DEFERRED]++;
+    e.placement.shifted = e.placement.shifted || e.plan.pieces() < wanted;
     return;
   }
 
@@ -239,6 +239,7 @@ void FixClusterBreakMerge::arbitrate()
       bins.near(mine.centre, mine.radius, [&](int k) { free = free && !yields_to(mine, claims[k]); });
     }
     if (free) {
+      if (e.placement.shifted) totals[DEFERRED]++;
       proceeds[e.i] = 1;
       proceeding.push_back(std::move(e));
     } else

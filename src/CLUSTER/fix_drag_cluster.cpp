@@ -224,6 +224,7 @@ void FixDragCluster::init()
     error->all(FLERR, "Fix {} {} requires atom style sphere", style, id);
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix {} {} does not support run_style respa: use run_style verlet", style, id);
+  if (domain->triclinic) error->all(FLERR, "Fix {} {} does not support triclinic boxes", style, id);
 
   for (auto &component : velocity) {
     if (component.variable.empty()) continue;

@@ -72,7 +72,7 @@ class StyleArguments : protected Pointers {
   }
   int integer(const std::string &what, int lo)
   {
-    const std::string rule = fmt::format("an integer >= {}", lo);
+    const std::string rule = fmt::format("an integer from {} to {}", lo, MAXSMALLINT);
     const std::string value = word(what);
     if (!utils::is_integer(value)) refuse(what, rule);
     // as a double first: a value beyond the range of int is refused here, in these words

@@ -102,7 +102,7 @@ struct Placement {
 };
 
 // Takes the nearest free sites, then moves the whole set so that its centre of mass is the
-// parent's, and checks every gap again (gap >= 0). `spacing` in diameters of the largest piece.
+// parent's, and checks every gap again (gap >= 0). `spacing` in diameters of the n_l pieces.
 inline Placement place_fragments(const BreakPlan &plan, const ClusterGeometry &geometry,
                                  const Lattice &lattice, const Turn &turn, double spacing,
                                  double claim, const std::vector<Obstacle> &obstacles,
@@ -110,7 +110,8 @@ inline Placement place_fragments(const BreakPlan &plan, const ClusterGeometry &g
 {
   Placement result;
   const double radius = 0.5 * geometry.diameter(plan.largest());
-  const double a = 2.0 * radius * spacing;
+  // spacing in diameters of the pieces of n_l; one that a remainder was folded into still fits
+  const double a = std::max(spacing * geometry.diameter(plan.n), 2.0 * radius);
   auto free = [&](const Vec3 &p, double r) {
     if (!walls.contains(p, r)) return false;
     for (const Obstacle &o : obstacles) {
@@ -152,19 +153,21 @@ inline Placement place_fragments(const BreakPlan &plan, const ClusterGeometry &g
   return result;
 }
 
-// A break that needs more room than one event may claim goes in stages: pieces of n_l, 2 n_l, 4 n_l
-// … particles until a placement is found; the coarse pieces break further at a later check.
+// A break that needs more room than one event may claim, or than there is, goes in stages: half as
+// many pieces, a quarter … down to two, until a placement is found; they break further at a later check.
 inline Placement place_in_stages(BreakPlan &plan, int n, int n_l, int lower_limit,
                                  const ClusterGeometry &geometry, const Lattice &lattice,
                                  const Turn &turn, double spacing, double claim,
                                  const std::vector<Obstacle> &obstacles, const Walls &walls)
 {
   Placement placement;
-  for (int piece = n_l; piece < n; piece *= 2) {
+  for (int piece = n_l; piece < n;) {
     plan = plan_breakup(n, piece, lower_limit);
     if (!plan.is_event()) break;
     placement = place_fragments(plan, geometry, lattice, turn, spacing, claim, obstacles, walls);
-    if (placement.found) break;
+    if (placement.found || plan.pieces() == 2) break;
+    const int fewer = std::max(2, plan.pieces() / 2);
+    piece = (n + fewer - 1) / fewer;
   }
   return placement;
 }
