@@ -39,7 +39,7 @@ run_unit_tests() {
 run_pytest() {
   local file=$1
   shift
-  "$venv/bin/python" -m pytest -q -p no:cacheprovider --junitxml="$file" "$@" </dev/null || true
+  "$venv/bin/python" -m pytest -q --junitxml="$file" "$@" </dev/null || true
 }
 
 # Sums the test cases of JUnit files, prints `N passed, N failed`; fails when any failed or none passed.
