@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import settings
 from clusterdem.cli import main
+
+settings.register_profile("plain", database=None, deadline=None)  # leaves no folder behind
+settings.load_profile("plain")
 
 
 @pytest.fixture
