@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
-import pytest
-from hypothesis import settings
-from clusterdem.cli import main
+import tempfile
+from pathlib import Path
 
-settings.register_profile("plain", database=None, deadline=None)  # leaves no folder behind
+import pytest
+from clusterdem.cli import main
+from hypothesis import settings
+from hypothesis.configuration import set_hypothesis_home_dir
+
+# leave no folder behind
+set_hypothesis_home_dir(Path(tempfile.gettempdir()) / "hypothesis")
+settings.register_profile("plain", database=None, deadline=None)
 settings.load_profile("plain")
 
 
