@@ -113,6 +113,18 @@ def test_series(tmp_path):
         read_series(path)
 
 
+def test_events_command(tmp_path, command):
+    dumps = write_run(tmp_path, 1)
+    table = tmp_path / "case1.N.txt"
+    table.write_text("# t\n# step time clusters breakups merges\n0 0 10 0 0\n5 0.5 14 4 1\n6 0.75 13 4 2\n")
+    assert command("sizes", *dumps, "--series", table, "--out", tmp_path / "s")[0] == 0
+    assert (tmp_path / "s/events.csv").read_text() == "time,breakups,merges\n0.25,8.0,2.0\n0.625,0.0,4.0\n"
+    assert (tmp_path / "s/events.png").exists()
+    table.write_text("# t\n# step time\n0 0\n")
+    code, _, err = command("sizes", *dumps, "--series", table, "--out", tmp_path / "s")
+    assert code == 2 and "no column clusters" in err
+
+
 def test_log(tmp_path):
     path = tmp_path / "a.log"
     path.write_text(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from pathlib import Path
 
 import numpy as np
@@ -12,13 +13,15 @@ from .header import number
 from .streams import open_lines
 
 
-def read_series(path: str | Path) -> dict[str, Floats]:
+def read_series(path: str | Path, needed: Collection[str] = ()) -> dict[str, Floats]:
     """Read a table: comment lines first, the last of them names the columns.
 
     Parameters
     ----------
     path : str or Path
         The file.
+    needed : collection of str
+        Columns that must be there.
 
     Returns
     -------
@@ -47,6 +50,9 @@ def read_series(path: str | Path) -> dict[str, Floats]:
                 raise InputError(source.path, "every word of a row must be a number", source.line) from None
     if not rows:
         raise InputError(path, "holds no row of numbers")
+    for name in needed:
+        if name not in names:
+            raise InputError(path, f"no column {name}")
     columns = np.array(rows).T
     return dict(zip(names, columns))
 

@@ -1,6 +1,7 @@
 """Sizes over time: N(t), means, Sauter diameter, the paper's four classes, a fine histogram.
 
-Writes to DIR sizes.csv (a row per frame), histogram.csv (a row per frame and bin) and figures; prints the table.
+Writes to DIR sizes.csv (a row per frame), histogram.csv (a row per frame and bin) and figures; prints the table. With
+--series also events.csv, the engine's own count of clusters and the rates of breakups and merges.
 """
 
 from __future__ import annotations
@@ -14,9 +15,11 @@ from ..errors import InputError
 from ..frame import Floats, Frame
 from ..output import write_csv
 from ..parallel import over_frames
+from ..series import event_rates, read_series
 from ..sizefigures import draw_histograms, draw_sizes
 from ..sizes import CLASS_NAMES, Sizes, fine_edges, histogram, size_summary
 from ..style import save
+from ..timefigures import draw_series
 from .common import add_dumps, finish, positive, tell
 
 
@@ -31,6 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--out", type=Path, default=Path("sizes"), metavar="DIR", help="folder for the results (default sizes)"
     )
+    parser.add_argument("--series", type=Path, metavar="FILE", help="the engine's table over time, NAME.N.txt")
     parser.add_argument("--no-figures", action="store_true", help="data only")
 
 
@@ -54,6 +58,7 @@ def run(options: argparse.Namespace) -> None:
     def work(frame: Frame) -> tuple[Sizes, tuple[Floats, Floats]]:
         return size_summary(frame.diameter, frame.mass), histogram(frame.diameter, frame.mass, edges)
 
+    series = None if options.series is None else read_series(options.series, ("time", "clusters"))
     found = over_frames(options.dumps, work, (), options.dt)
     if found.root and found.heads:
         sizes = [size for size, _ in found.values]
@@ -74,6 +79,11 @@ def run(options: argparse.Namespace) -> None:
             tell(save(draw_sizes(times, steps, sizes), out / "sizes.png"))
             labels = [head.label for head in found.heads]
             tell(save(draw_histograms(edges, histograms, labels), out / "histogram.png"))
+        if series is not None:
+            rates = event_rates(series)
+            tell(write_csv(out / "events.csv", list(rates), zip(*(values.tolist() for values in rates.values()))))
+            if not options.no_figures:
+                tell(save(draw_series(series, rates), out / "events.png"))
     finish(found)
 
 
