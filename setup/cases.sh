@@ -15,6 +15,7 @@ verb_case3() { # the paper's case 3, the same way
 run_case() {
   local name=$1 out=$root/results/$1 launch=() arguments=()
   shift
+  local given=("$@")
   while (($#)); do
     if [[ $1 == --np ]]; then
       [[ ${2:-} =~ ^[1-9][0-9]*$ ]] || die "--np wants the number of ranks, as in: ./run $name --np 2"
@@ -32,9 +33,11 @@ run_case() {
   cd "$root"
   make_folder "$out"
   rm -f "$out/$name".*.dump # frames of an earlier run
+  echo "./run $name ${given[*]}" >"$out/command.txt" # quoted by the report
   # Of a variable given twice LAMMPS keeps the first value: the user's come first.
   "${launch[@]}" build/bin/lmp "${arguments[@]}" -in "inputs/$name.in" -log "$out/$name.log" \
     -var outdir "$out" </dev/null
   build/bin/clusterdem map "$out/$name".*.dump --grid 30 30 --out "$out"
   build/bin/clusterdem compare "$out/$name".*.dump --case "$name"
+  build/bin/clusterdem report "$out" --name "$name"
 }

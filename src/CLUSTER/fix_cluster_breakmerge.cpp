@@ -243,8 +243,8 @@ void FixClusterBreakMerge::init()
   pairs.find(me, groupbit, geometry.diameter(limits.hi));
   check_room();
   const double finest = spacing * geometry.diameter(limits.lo);
-  lattice = planar ? std::make_unique<ClusterDEM::Lattice>(0, 2, 2.0 * claim_max / finest + 1.0)
-                   : std::make_unique<ClusterDEM::Lattice>(-1, -1, 2.0 * claim_max / finest + 1.0);
+  const int axis0 = planar ? 0 : -1, axis1 = planar ? 2 : -1;
+  lattices = std::make_unique<Lattices>(axis0, axis1, claim_max / finest + 1.0);
 }
 
 /* ----------------------------------------------------------------------

@@ -97,7 +97,7 @@ class FixClusterBreakMerge : public Fix {
   FixDragCluster *drag;
   GranularPairs pairs;
   std::unique_ptr<CellAverages> averages;
-  std::unique_ptr<ClusterDEM::Lattice> lattice;
+  std::unique_ptr<ClusterDEM::Lattices> lattices;
 
   // ---- per cluster; columns of array_atom: n d l N_st N_cc N_smf
   int *count;                                   // primary particles; 0: not yet known

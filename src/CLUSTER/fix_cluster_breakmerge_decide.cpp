@@ -172,10 +172,10 @@ void FixClusterBreakMerge::place(Event &e, const std::vector<Obstacle> &obstacle
       walls.lo[axis] = wall ? domain->boxlo[axis] - e.body.x[axis] : -INFINITY;
       walls.hi[axis] = wall ? domain->boxhi[axis] - e.body.x[axis] : INFINITY;
     }
-    const Turn turn(atom->tag[e.i], 0, planar ? 2 : 1);
+    const Turn turn(atom->tag[e.i], 0, planar ? 2 : 1, update->ntimestep / nevery);
     const int n = count[e.i] + (e.j < 0 ? 0 : count[e.j]);
     const int wanted = e.plan.pieces();
-    e.placement = place_in_stages(e.plan, n, e.plan.n, limits.lo, geometry, *lattice, turn, spacing,
+    e.placement = place_in_stages(e.plan, n, e.plan.n, limits.lo, geometry, *lattices, turn, spacing,
                                   e.reach, obstacles, walls);
     e.placement.shifted = e.placement.shifted || e.plan.pieces() < wanted;
     return;

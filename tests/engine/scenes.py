@@ -1,6 +1,6 @@
 """Scenes that several test files share."""
 
-from engine import clusters, head, pair, random_clusters, write
+from lammps_run import clusters, head, pair, random_clusters, write
 
 GAS = "fix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 2 fluctuation 3 0 3 cell 8 1 8 4e-4 5 plane xz\n"
 
@@ -15,13 +15,15 @@ def busy(
 
 def start(newton: str = "on", count: int = 300, seed: int = 1, model: str | None = None) -> str:
     contact = pair() if model is None else pair(model)
-    return head(newton=newton) + random_clusters(count, seed=seed) + contact + "velocity all set 0 0 2\n"
+    # velocities by position: a random() variable would depend on the ranks
+    stir = "variable u atom 0.4*sin(79190*x+104729*z)\nvariable w atom 2+0.4*sin(61379*x-94321*z)\nvelocity all set v_u 0 v_w\n"
+    return head(newton=newton) + random_clusters(count, seed=seed) + contact + stir
 
 
 def fixes(every: int = 5, options: str = "", gas: str = GAS) -> str:
     return (
         "fix move all nve\nfix fall all gravity 9.81 vector 0 0 -1\n" + gas
-        + f"fix size all cluster/breakmerge {every} 1e-4 2000 drag drag K 0.25 merge 0.3 {options}\n"
+        + f"fix size all cluster/breakmerge {every} 1e-4 2000 drag drag K 0.5 merge 0.2 {options}\n"
         "timestep 2e-6\n"
     )
 

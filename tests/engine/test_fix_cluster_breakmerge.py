@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from engine import D_P, M_P, RHO_P, clusters, diameter, head, pair, random_clusters, run, write
+from lammps_run import D_P, M_P, RHO_P, clusters, diameter, head, pair, random_clusters, run, write
 
 NU_G, RHO_G, G = 1.53e-5, 1.2, 9.81
 COLUMNS = [f"f_size[{k}]" for k in range(1, 7)]

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from engine import D_P, M_P, clusters, diameter, head, pair, random_clusters, run, write
+from lammps_run import D_P, M_P, clusters, diameter, head, pair, random_clusters, run, write
 
 RHO_G, NU_G = 1.2, 1.53e-5
 
@@ -171,7 +171,7 @@ def test_redrawn_at_the_period_and_not_before(tmp_path):
         text = fluctuating("own 1e-4 7", steps=steps, dt=1e-6)
         return run(tmp_path / str(steps), text).dump()["f_drag[1]"]
 
-    first, last, redrawn = u(0), u(99), u(100)
+    first, last, redrawn = u(0), u(100), u(101)  # a period includes its end
     assert np.array_equal(first, last)
     assert np.all(first != redrawn)
 

@@ -13,7 +13,7 @@ using namespace ClusterDEM;
 TEST(Chain, FiniteAndConservingForAnyInput)
 {
   RandomInputs random(70);
-  const Lattice lattice(0, 2, 10.0);
+  const Lattices lattice(0, 2, 10.0);
   const double inf = std::numeric_limits<double>::infinity();
   const Walls no_walls{{-inf, -inf, -inf}, {inf, inf, inf}};
   int broken = 0;
@@ -87,7 +87,7 @@ TEST(Chain, FragmentsMergedBackAreTheParent)
 {
   // break, then merge all the fragments again: count, mass, place and momentum are the parent's
   RandomInputs random(71);
-  const Lattice lattice(0, 2, 16.0);
+  const Lattices lattice(0, 2, 16.0);
   const double inf = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 1000; k++) {
     const int n = random.integer(6, 2000);

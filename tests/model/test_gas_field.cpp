@@ -65,7 +65,7 @@ TEST(GasProfile, ConstantBeyondItsEnds)
 
 TEST(PeriodIndex, TimeSummedUpInStepsFallsIntoTheRightPeriod)
 {
-  // t = k period, reached by summing dt, is period k exactly; integers of nanoseconds tell the truth.
+  // t = k period, reached by summing dt, still is period k - 1; integers of nanoseconds tell the truth.
   // Summing drifts by up to steps^2 EPS/2 of dt, which must stay below the 1e-6 of a period:
   // where period = dt only the first 50000 steps are summed (3e-7), elsewhere all 300000
   const struct {
@@ -78,7 +78,7 @@ TEST(PeriodIndex, TimeSummedUpInStepsFallsIntoTheRightPeriod)
     const double dt = c.dt * 1.0e-9, period = c.period * 1.0e-9;
     double summed = 0.0;
     for (std::int64_t step = 0; step <= 300000; step++, summed += dt) {
-      const std::int64_t truth = step * c.dt / c.period;
+      const std::int64_t truth = step == 0 ? 0 : (step * c.dt - 1) / c.period;
       if (step <= c.summed_steps) {
         ASSERT_EQ(period_index(summed, period), truth) << "step " << step << " of " << c.dt << " ns";
       }
@@ -92,14 +92,15 @@ TEST(PeriodIndex, TimeSummedUpInStepsFallsIntoTheRightPeriod)
 
 TEST(PeriodIndex, RoundingRule)
 {
-  // within 1e-6 of a period below its end counts as the next, and no more than that
+  // within 1e-6 of a period above its end still counts to it, and no more than that
   for (std::int64_t k : {1, 2, 10, 1000000}) {
-    EXPECT_EQ(period_index(0.005 * (k - 0.9e-6), 0.005), k);
-    EXPECT_EQ(period_index(0.005 * (k - 1.1e-6), 0.005), k - 1);
+    EXPECT_EQ(period_index(0.005 * k, 0.005), k - 1);
+    EXPECT_EQ(period_index(0.005 * (k + 0.9e-6), 0.005), k - 1);
+    EXPECT_EQ(period_index(0.005 * (k + 1.1e-6), 0.005), k);
     EXPECT_EQ(period_index(0.005 * (k + 0.5), 0.005), k);
   }
   EXPECT_EQ(period_index(0.0, 0.005), 0);
-  EXPECT_EQ(period_index(-0.001, 0.005), -1); // before the start is a period of its own
+  EXPECT_EQ(period_index(-0.001, 0.005), 0); // nothing comes before the first
 }
 
 TEST(PeriodIndex, ManyPeriods)

@@ -5,7 +5,9 @@
 #include "model/placement.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
+#include <set>
 
 using namespace ClusterDEM;
 
@@ -105,6 +107,33 @@ TEST(Lattice, UnitSpacingAndFixedOrder)
   }
 }
 
+TEST(Lattice, BetweenTwoSites)
+{
+  // shells about the middle of a bond, in squared spacings: 1/4, 3/4, 7/4 … in a plane; 1/4, 3/4 … in space
+  for (int axis0 : {0, -1}) {
+    const Lattice lattice(axis0, axis0 < 0 ? -1 : 2, 4.0, false);
+    std::map<long, int> shells;
+    for (std::size_t k = 0; k < lattice.size(); k++)
+      shells[std::lround(4.0 * dot(lattice.site(k), lattice.site(k)))]++;
+    EXPECT_EQ(shells.begin()->first, 1);
+    EXPECT_EQ(shells.begin()->second, 2);
+    EXPECT_EQ(shells[3], axis0 < 0 ? 4 : 2);
+    if (axis0 == 0) EXPECT_EQ(shells[7], 4);
+  }
+}
+
+TEST(Lattice, EverySiteHasItsMirrorImage)
+{
+  for (int axis0 : {0, -1})
+    for (bool on_a_site : {true, false}) {
+      const Lattice lattice(axis0, axis0 < 0 ? -1 : 2, 4.0, on_a_site);
+      std::set<Vec3> all;
+      for (std::size_t k = 0; k < lattice.size(); k++) all.insert(lattice.site(k));
+      for (const Vec3 &p : lattice.half()) EXPECT_EQ(all.count(Vec3{0.0, 0.0, 0.0} - p), 1u);
+      EXPECT_EQ(2 * lattice.half().size() + (on_a_site ? 1 : 0), lattice.size());
+    }
+}
+
 TEST(Lattice, LargeReachIsComplete)
 {
   // as many sites as the area (2/sqrt 3 per unit area) or the volume (sqrt 2 per unit volume) holds; the
@@ -162,7 +191,7 @@ TEST(PlaceFragments, TwoHalvesByHand)
   const BreakPlan plan = plan_breakup(400, 200, 3);
   const double d = paper_geometry.diameter(200);
   const Placement placed =
-      place_fragments(plan, paper_geometry, Lattice(0, 2, 5.0), Turn(1, 0, 2), 2.0, 1.0, {}, no_walls);
+      place_fragments(plan, paper_geometry, Lattices(0, 2, 5.0), Turn(1, 0, 2), 2.0, 1.0, {}, no_walls);
   ASSERT_TRUE(placed.found);
   EXPECT_FALSE(placed.shifted);
   EXPECT_TRUE(relatively_near(norm(placed.centres[0] - placed.centres[1]), 2.0 * d, 8.0 * EPS));
@@ -175,7 +204,7 @@ TEST(PlaceFragments, SevenAndThirteenEqualPiecesFillTheFirstShell)
   for (bool planar : {true, false}) {
     const BreakPlan plan = planar ? plan_breakup(700, 100, 3) : plan_breakup(1300, 100, 3);
     const double d = paper_geometry.diameter(100);
-    const Lattice lattice = planar ? Lattice(0, 2, 5.0) : Lattice(-1, -1, 5.0);
+    const Lattices lattice = planar ? Lattices(0, 2, 5.0) : Lattices(-1, -1, 5.0);
     const Placement placed =
         place_fragments(plan, paper_geometry, lattice, Turn(5, 0, planar ? 2 : 1), 2.0, 1.0, {}, no_walls);
     ASSERT_TRUE(placed.found);
@@ -189,7 +218,7 @@ TEST(PlaceFragments, RoomOfTheLargestBreak)
   // 666 threes claim about 4.9 mm in a plane; the rim of the disc is half a step (0.18 mm) to either side
   const BreakPlan plan = plan_breakup(1998, 3, 3);
   const Placement placed =
-      place_fragments(plan, paper_geometry, Lattice(0, 2, 16.0), Turn(1, 0, 2), 2.0, 1.0, {}, no_walls);
+      place_fragments(plan, paper_geometry, Lattices(0, 2, 16.0), Turn(1, 0, 2), 2.0, 1.0, {}, no_walls);
   ASSERT_TRUE(placed.found);
   EXPECT_NEAR(placed.reach, 4.9e-3, 0.18e-3);
   check(placed, plan, paper_geometry, 2.0, 1.0, {}, no_walls, true);
@@ -198,7 +227,7 @@ TEST(PlaceFragments, RoomOfTheLargestBreak)
 TEST(PlaceFragments, AnyBreakAmongAnyNeighbours)
 {
   RandomInputs random(61);
-  const Lattice plane(0, 2, 14.0), space(-1, -1, 6.0);
+  const Lattices plane(0, 2, 14.0), space(-1, -1, 6.0);
   int found = 0, shifted = 0, walled = 0, of_many = 0;
   for (int trial = 0; trial < 6000; trial++) {
     const ClusterGeometry g = random.geometry();
@@ -233,7 +262,7 @@ TEST(PlaceFragments, AnyBreakAmongAnyNeighbours)
         walls.lo[axis] = -parent * random.uniform(1.0, 3.0);
     }
     const Turn turn(random.integer(1, 1000000), 0, planar ? 2 : 1);
-    const Lattice &lattice = planar ? plane : space;
+    const Lattices &lattice = planar ? plane : space;
     const Placement placed = place_fragments(plan, g, lattice, turn, spacing, claim, obstacles, walls);
 
     // the same again, neighbours in another order: the same bits
@@ -263,7 +292,7 @@ TEST(PlaceFragments, AnyBreakAmongAnyNeighbours)
 TEST(PlaceFragments, WithoutNeighboursNothingIsShifted)
 {
   RandomInputs random(62);
-  const Lattice lattice(0, 2, 16.0);
+  const Lattices lattice(0, 2, 16.0);
   for (int k = 0; k < 500; k++) {
     const int n = random.integer(6, 2000);
     const BreakPlan plan = plan_breakup(n, random.integer(3, n / 2), 3);
@@ -282,7 +311,7 @@ TEST(PlaceFragments, WithoutNeighboursNothingIsShifted)
 TEST(PlaceFragments, NoRoomIsNotFound)
 {
   const BreakPlan plan = plan_breakup(400, 100, 3);
-  const Lattice lattice(0, 2, 10.0);
+  const Lattices lattice(0, 2, 10.0);
   const Turn turn(1, 0, 2);
   // a claim below the parent, a neighbour over everything, walls closer than a piece, a lattice too small
   EXPECT_FALSE(place_fragments(plan, paper_geometry, lattice, turn, 2.0, 0.5e-3, {}, no_walls).found);
@@ -292,19 +321,19 @@ TEST(PlaceFragments, NoRoomIsNotFound)
   EXPECT_FALSE(place_fragments(plan, paper_geometry, lattice, turn, 2.0, 5.0e-3, {},
                                {{-1.0e-4, -inf, -inf}, {1.0e-4, inf, inf}})
                    .found);
-  EXPECT_FALSE(place_fragments(plan, paper_geometry, Lattice(0, 2, 0.5), turn, 2.0, 1.0, {}, no_walls).found);
+  EXPECT_FALSE(place_fragments(plan, paper_geometry, Lattices(0, 2, 0.5), turn, 2.0, 1.0, {}, no_walls).found);
   // and with room for it, the same break is
   EXPECT_TRUE(place_fragments(plan, paper_geometry, lattice, turn, 2.0, 5.0e-3, {}, no_walls).found);
 }
 
 TEST(PlaceFragments, ShiftIsReported)
 {
-  // a small neighbour on the second site of the lattice
+  // a small neighbour on a site of the first shell
   const BreakPlan plan = plan_breakup(700, 100, 3);
-  const Lattice lattice(0, 2, 10.0);
+  const Lattices lattice(0, 2, 10.0);
   const Turn turn(7, 0, 2);
   const double step = 2.0 * paper_geometry.diameter(100);
-  const std::vector<Obstacle> on_site = {{turn(step * lattice.site(1)), 1.0e-6}};
+  const std::vector<Obstacle> on_site = {{turn(step * lattice.odd.half()[0]), 1.0e-6}};
   const Placement placed = place_fragments(plan, paper_geometry, lattice, turn, 2.0, 1.0, on_site, no_walls);
   ASSERT_TRUE(placed.found);
   EXPECT_TRUE(placed.shifted);
@@ -316,7 +345,7 @@ TEST(PlaceFragments, ShiftIsReported)
 TEST(PlaceInStages, TakesTheFinestThatFits)
 {
   RandomInputs random(63);
-  const Lattice lattice(0, 2, 40.0);
+  const Lattices lattice(0, 2, 40.0);
   int staged = 0, fine = 0;
   for (int trial = 0; trial < 400; trial++) {
     const int n = random.integer(6, 2000);
@@ -369,7 +398,7 @@ TEST(PlaceInStages, TheLargestBreakInASmallClaim)
 {
   // 2000 into threes wants 4.9 mm: within 2.5 mm it comes apart in fewer, coarser ones
   BreakPlan plan;
-  const Placement placed = place_in_stages(plan, 2000, 3, 3, paper_geometry, Lattice(0, 2, 16.0),
+  const Placement placed = place_in_stages(plan, 2000, 3, 3, paper_geometry, Lattices(0, 2, 16.0),
                                            Turn(1, 0, 2), 2.0, 2.54e-3, {}, no_walls);
   ASSERT_TRUE(placed.found);
   EXPECT_GT(plan.n, 3);
@@ -380,7 +409,7 @@ TEST(PlaceInStages, AloneEveryBreakFindsRoomWithinTheDefaultClaim)
 {
   // the fix claims 1.6 largest diameters unless told; a cluster that could never break would stay for ever
   const double claim = 1.6 * paper_geometry.diameter(2000);
-  const Lattice lattice(0, 2, 9.0);
+  const Lattices lattice(0, 2, 9.0);
   for (int n = 6; n <= 2000; n += (n < 1000 ? 17 : 9))
     for (int n_l = 3; 2 * n_l <= n; n_l += (n_l < 20 ? 1 : 23)) {
       BreakPlan plan;
@@ -392,7 +421,7 @@ TEST(PlaceInStages, AloneEveryBreakFindsRoomWithinTheDefaultClaim)
 
 TEST(PlaceInStages, NothingToBreak)
 {
-  const Lattice lattice(0, 2, 5.0);
+  const Lattices lattice(0, 2, 5.0);
   for (int n_l : {0, 5, 6, 2000}) { // no size given; a remainder that folds; whole; larger
     BreakPlan plan;
     EXPECT_FALSE(place_in_stages(plan, n_l == 5 ? 7 : 6, n_l, 3, paper_geometry, lattice, Turn(1, 0, 2), 2.0,

@@ -31,13 +31,15 @@ struct GasProfile {
   }
 };
 
-// Index of the period that the time t lies in. Rounding rule: a time within 1e-6 of a period below
-// the end of one counts as the next, so that t = k * period, summed up in steps of dt, is period k.
-// period <= 0 means frozen: always 0.
+// Index of the period that the time t lies in. Rounding rule: period k lasts from k * period, left out,
+// to (k + 1) * period, included, so that what is seen at the end of a period is the state that this
+// period led to; t = 0 belongs to period 0. A time within 1e-6 of a period above an end counts as that
+// end, so that times summed up in steps of dt fall where they should. period <= 0 means frozen: always 0.
 inline std::int64_t period_index(double t, double period)
 {
   if (!(period > 0.0)) return 0;
-  return static_cast<std::int64_t>(std::floor(t / period + 1.0e-6));
+  const double k = std::ceil(t / period - 1.0e-6) - 1.0;
+  return k > 0.0 ? static_cast<std::int64_t>(k) : 0;
 }
 
 // Cell of a regular grid of n cells over [lo, lo + length) that x lies in, wrapped into a periodic box.

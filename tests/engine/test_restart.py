@@ -1,0 +1,51 @@
+"""A continued run equals the same input cut by `run` at that step."""
+
+import numpy as np
+import pytest
+import scenes
+from lammps_run import run
+
+
+def cut(tmp_path, np_, options="", gas=scenes.GAS):
+    setup = scenes.start() + scenes.fixes(options=options, gas=gas) + scenes.outputs()
+    whole = run(tmp_path / "whole", setup + "run 601\nrun 600\n" + scenes.final(), np_)
+    run(tmp_path / "half", setup + "run 601\nwrite_restart half.restart\n", np_)
+    return whole
+
+
+OWN = scenes.GAS.replace("cell 8 1 8 4e-4 5", "own 4e-4 5")
+
+
+@pytest.mark.parametrize("np_", [1, 2])
+@pytest.mark.parametrize(
+    "options, gas", [("", scenes.GAS), ("test end", scenes.GAS), ("", OWN), ("refused break up cell nsmf paper grid 4 1 4", scenes.GAS)]
+)
+def test_bit_equal_on_the_same_ranks(tmp_path, np_, options, gas):
+    whole = cut(tmp_path, np_, options, gas)
+    script = scenes.again("../half/half.restart", options=options, gas=gas) + "run 600\n" + scenes.final()
+    continued = run(tmp_path / "again", script, np_)
+    a, b = whole.dump(), continued.dump()
+    assert whole.table()[-1, scenes.BREAKUPS] > 10
+    for column in a:
+        assert np.array_equal(a[column], b[column]), column
+    counts = slice(1, 7)
+    assert np.array_equal(whole.table()[-1, counts], continued.table()[-1, counts])
+
+
+def test_same_events_on_other_ranks(tmp_path):
+    whole = cut(tmp_path, 1)
+    script = scenes.again("../half/half.restart") + "run 600\n" + scenes.final()
+    continued = run(tmp_path / "again", script, 4)
+    counts = slice(1, 7)
+    assert np.array_equal(whole.table()[-1, counts], continued.table()[-1, counts])
+    assert np.array_equal(whole.dump()["id"], continued.dump()["id"])
+
+
+def test_ids_of_the_dead_are_never_used_again(tmp_path):
+    """Newborns after a restart are numbered above every ID ever used, not just above those alive."""
+    setup = scenes.start() + scenes.fixes() + scenes.outputs()
+    half = run(tmp_path / "half", setup + "run 1500\nwrite_restart half.restart\n" + scenes.final()).dump()
+    script = scenes.again("../half/half.restart") + "run 300\n" + scenes.final()
+    later = run(tmp_path / "again", script).dump()
+    new = np.setdiff1d(later["id"], half["id"])
+    assert len(new) > 10 and new.min() > half["id"].max()
