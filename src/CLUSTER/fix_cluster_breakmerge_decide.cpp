@@ -141,7 +141,7 @@ void FixClusterBreakMerge::make_room()
     lo[axis] = domain->sublo[axis] - comm->cutghost[axis];
     hi[axis] = domain->subhi[axis] + comm->cutghost[axis];
   }
-  LocalBins bins(lo, hi, claim_max);
+  LocalBins bins(lo, hi, claim_max, nall);
   double widest = largest;
   for (int i = 0; i < nall; i++) widest = MAX(widest, radius[i]);
   for (std::size_t k = 0; k < events.size(); k++)
@@ -226,7 +226,7 @@ void FixClusterBreakMerge::arbitrate()
     lo[axis] = domain->sublo[axis] - comm->cutghost[axis];
     hi[axis] = domain->subhi[axis] + comm->cutghost[axis];
   }
-  LocalBins bins(lo, hi, claim_max);
+  LocalBins bins(lo, hi, claim_max, nall);
   for (std::size_t k = 0; k < claims.size(); k++)
     bins.add(claims[k].centre, claims[k].radius, static_cast<int>(k));
 

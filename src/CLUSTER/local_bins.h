@@ -3,7 +3,7 @@
 ------------------------------------------------------------------------- */
 
 // Spheres of a few events, binned over this rank's part of the box and its ghosts, so that the search
-// for what lies near them costs one look-up per cluster. Memory goes with the rank's volume.
+// for what lies near them costs one look-up per cluster. No more bins than clusters of this rank.
 
 #ifndef LMP_LOCAL_BINS_H
 #define LMP_LOCAL_BINS_H
@@ -17,16 +17,21 @@ namespace LAMMPS_NS {
 
 class LocalBins {
  public:
-  // the region that all centres lie in (others are counted to its edge), and the side of a bin
-  LocalBins(const ClusterDEM::Vec3 &lo, const ClusterDEM::Vec3 &hi, double side) : lo_(lo)
+  // the region that all centres lie in (others are counted to its edge), the least side of a bin, and
+  // the most bins there may be
+  LocalBins(const ClusterDEM::Vec3 &lo, const ClusterDEM::Vec3 &hi, double side, int most) : lo_(lo)
   {
-    std::size_t total = 1;
-    for (int k = 0; k < 3; k++) {
-      n_[k] = std::max(1, std::min(MOST, static_cast<int>((hi[k] - lo[k]) / side)));
-      inverse_[k] = n_[k] / (hi[k] - lo[k]);
-      total *= n_[k];
-    }
-    head_.assign(total, -1);
+    double total;
+    do {
+      total = 1.0;
+      for (int k = 0; k < 3; k++) {
+        n_[k] = std::max(1, static_cast<int>(std::min((hi[k] - lo[k]) / side, 1.0e6)));
+        inverse_[k] = n_[k] / (hi[k] - lo[k]);
+        total *= n_[k];
+      }
+      side *= 1.5;
+    } while (total > std::max(most, 1));
+    head_.assign(static_cast<std::size_t>(total), -1);
   }
 
   void add(const ClusterDEM::Vec3 &x, double reach, int id)
@@ -53,7 +58,6 @@ class LocalBins {
   }
 
  private:
-  static constexpr int MOST = 512;    // bins along one axis
   struct Entry {
     int id, next;
   };
