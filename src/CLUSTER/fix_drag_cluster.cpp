@@ -5,6 +5,7 @@
 #include "fix_drag_cluster.h"
 
 #include "fix_cluster_breakmerge.h"
+#include "model/drag_table.h"
 #include "style_arguments.h"
 
 #include "atom.h"
@@ -53,6 +54,7 @@ FixDragCluster::FixDragCluster(LAMMPS *lmp, int narg, char **arg) :
   gas.rho = args.positive("rho_g", "mass/volume");
   gas.nu = args.positive("nu_g", "length^2/time");
 
+  bool table = true;
   while (args.more()) {
     const std::string keyword = args.word("keyword");
     if (keyword == "velocity") parse_velocity(args);
@@ -68,9 +70,13 @@ FixDragCluster::FixDragCluster(LAMMPS *lmp, int narg, char **arg) :
       particle_given = true;
     } else if (keyword == "integrator")
       exponential = args.choice(keyword, {"explicit", "exponential"}) == 1;
+    else if (keyword == "table")
+      table = args.yes(keyword);
     else
       args.unknown_keyword();
   }
+
+  if (table) law = std::make_unique<DragTable>(std::move(law));
 
   if (fluctuation == OWN) {
     if (!atom->tag_enable) error->all(FLERR, "Fix {} fluctuation own requires atom IDs", style);

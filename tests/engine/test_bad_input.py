@@ -26,6 +26,7 @@ DRAG_ERRORS = [
     (f"{DRAG} fluctuation 1 0 1 cell 0 1 30 frozen 1", "fluctuation cell count value: 0 (must be an integer from 1 to"),
     (f"{DRAG} fluctuation 1 0 1 own 0 1", "fluctuation PERIOD value: 0 (must be frozen or a time > 0)"),
     (f"{DRAG} fluctuation 1 0 1 own frozen -5", "fluctuation SEED value: -5 (must be an integer from 1 to"),
+    (f"{DRAG} table maybe", "table value: maybe (must be no | yes)"),
     (f"{DRAG} speed 1", "Unknown fix drag/cluster keyword: speed"),
     (f"{DRAG} profile none.txt x", "none.txt"),
     (f"{DRAG} profile in.lmp r", "profile axis value: r (must be x | y | z)"),
