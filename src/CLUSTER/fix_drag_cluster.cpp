@@ -27,13 +27,15 @@ using namespace FixConst;
 using namespace ClusterDEM;
 
 static constexpr int COLUMNS = 8;    // gas velocity, drag force, Re, tau
+static constexpr int BLOCK = 64;     // clusters whose drag is computed together
 
 /* ---------------------------------------------------------------------- */
 
 FixDragCluster::FixDragCluster(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), law(std::make_unique<TranCongDrag>(0.8, 1.1)), velocity_atom(nullptr),
     nmax_velocity(0), profile_axis(-1), fluctuation(NO_FLUCTUATION), amplitude{0.0, 0.0, 0.0},
-    cells{1, 1, 1}, period(0.0), seed(0), period_now(0), draw(nullptr),
+    cells{1, 1, 1}, period(0.0), seed(0), period_now(0),
+    inverse_length{0.0, 0.0, 0.0}, draw(nullptr),
     acts_along{true, true, true}, unshielded(0.0), particle_d(0.0), particle_mass(0.0),
     particle_given(false), exponential(false), peratom_rows(0), totals{}, totals_all{}, totals_current(false)
 {
@@ -278,6 +280,7 @@ void FixDragCluster::prepare()
   const double t = update->atime + (update->ntimestep - update->atimestep) * update->dt;
   period_now = period_index(t, period);
   if (static_cast<int>(cache.size()) < atom->nmax) cache.resize(atom->nmax);
+  for (int k = 0; k < 3; k++) inverse_length[k] = 1.0 / domain->prd[k];
 
   bool any = false;
   for (const auto &component : velocity) any = any || component.index >= 0;
@@ -334,7 +337,7 @@ Vec3 FixDragCluster::fluctuation_of(int i)
     const double *x = atom->x[i];
     a = 0;
     for (int k = 2; k >= 0; k--)
-      a = a * cells[k] + cell_index(x[k], domain->boxlo[k], domain->prd[k], cells[k]);
+      a = a * cells[k] + cell_index((x[k] - domain->boxlo[k]) * inverse_length[k], cells[k]);
   } else {
     a = atom->tag[i];
     b = draw[i];
@@ -371,13 +374,7 @@ Vec3 FixDragCluster::in_plane(const Vec3 &force) const
 
 void FixDragCluster::post_force(int)
 {
-  double **v = atom->v;
-  double **f = atom->f;
-  const double *radius = atom->radius;
-  const double *rmass = atom->rmass;
-  const int *mask = atom->mask;
   const int nlocal = atom->nlocal;
-  const double dt = update->dt;
 
   prepare();
   if (peratom_rows < atom->nmax) {
@@ -389,33 +386,63 @@ void FixDragCluster::post_force(int)
   totals_current = false;
 
   bool finite = true;
-  for (int i = 0; i < nlocal; i++) {
+  for (int first = 0; first < nlocal; first += BLOCK) finite = add_drag(first, MIN(first + BLOCK, nlocal)) && finite;
+  if (!finite)
+    error->one(FLERR, "Fix {} {}: the drag force is not finite at step {}: check the gas velocity and "
+               "the time step", style, id, update->ntimestep);
+}
+
+/* ----------------------------------------------------------------------
+   Drag on the clusters of one block, in short loops of one thing each: roots and quotients of
+   neighbouring clusters then overlap in the processor instead of waiting for each other.
+   False where a force is not finite.
+------------------------------------------------------------------------- */
+
+bool FixDragCluster::add_drag(int first, int last)
+{
+  double **v = atom->v;
+  double **f = atom->f;
+  const double *radius = atom->radius;
+  const double *rmass = atom->rmass;
+  const int *mask = atom->mask;
+  const double dt = update->dt;
+  const int n = last - first;
+  Vec3 u[BLOCK], slip[BLOCK];
+  double speed[BLOCK], b[BLOCK];
+
+  // outside of the group the gas goes along: no slip, no force
+  for (int m = 0; m < n; m++) {
+    const int i = first + m;
+    u[m] = mask[i] & groupbit ? gas_velocity(i) : to_vec3(v[i]);
+  }
+  for (int m = 0; m < n; m++) {
+    slip[m] = in_plane(u[m] - to_vec3(v[first + m]));
+    speed[m] = norm(slip[m]);
+  }
+  for (int m = 0; m < n; m++) b[m] = cluster_coefficient(first + m, speed[m]);
+
+  double sum[4] = {0.0, 0.0, 0.0, 0.0};
+  for (int m = 0; m < n; m++) {
+    const int i = first + m;
     double *row = array_atom[i];
     if (!(mask[i] & groupbit)) {
       memset(row, 0, sizeof(double) * COLUMNS);
       continue;
     }
-    const Vec3 u = gas_velocity(i);
-    const Vec3 slip = in_plane(u - to_vec3(v[i]));
-    const double speed = norm(slip);
-    const double b = cluster_coefficient(i, speed);
-    const double tau = b > 0.0 ? rmass[i] / b : INFINITY;
-    const Vec3 drag = (exponential ? b * exponential_factor(dt / tau) : b) * slip;
-    finite = finite && std::isfinite(drag[0] + drag[1] + drag[2]);
-
+    const double tau = b[m] > 0.0 ? rmass[i] / b[m] : INFINITY;
+    const Vec3 drag = (exponential ? b[m] * exponential_factor(dt / tau) : b[m]) * slip[m];
     for (int k = 0; k < 3; k++) {
       f[i][k] += drag[k];
-      totals[k] += drag[k];
-      row[k] = u[k];
+      sum[k] += drag[k];
+      row[k] = u[m][k];
       row[3 + k] = drag[k];
     }
-    totals[3] += dot(drag, to_vec3(v[i]));
-    row[6] = reynolds(speed, 2.0 * radius[i], gas);
+    sum[3] += dot(drag, to_vec3(v[i]));
+    row[6] = reynolds(speed[m], 2.0 * radius[i], gas);
     row[7] = tau;
   }
-  if (!finite)
-    error->one(FLERR, "Fix {} {}: the drag force is not finite at step {}: check the gas velocity and "
-               "the time step", style, id, update->ntimestep);
+  for (int k = 0; k < 4; k++) totals[k] += sum[k];
+  return std::isfinite(sum[0] + sum[1] + sum[2]);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -76,6 +76,7 @@ class FixDragCluster : public Fix {
   double period;
   uint64_t seed;
   int64_t period_now;
+  ClusterDEM::Vec3 inverse_length;    // of the box
 
   // Fluctuation last computed for a slot of the atom arrays. It is a pure function of its key, so
   // it stays right whichever cluster comes to use the slot: nothing to migrate.
@@ -103,6 +104,7 @@ class FixDragCluster : public Fix {
   void parse_profile(StyleArguments &);
   void find_primary_particle();
   ClusterDEM::Vec3 fluctuation_of(int i);
+  bool add_drag(int first, int last);
 };
 
 }    // namespace LAMMPS_NS

@@ -121,22 +121,22 @@ TEST(PeriodIndex, FrozenIsAlwaysZero)
 
 TEST(CellIndex, ByHand)
 {
-  EXPECT_EQ(cell_index(0.0, 0.0, 0.3, 30), 0);
-  EXPECT_EQ(cell_index(0.299999, 0.0, 0.3, 30), 29);
-  EXPECT_EQ(cell_index(0.155, 0.0, 0.3, 30), 15);
-  EXPECT_EQ(cell_index(-0.25, -1.0, 2.0, 8), 3); // from lo, over a length
-  EXPECT_EQ(cell_index(0.1, 0.0, 0.3, 1), 0);
+  EXPECT_EQ(cell_index((0.0) / 0.3, 30), 0);
+  EXPECT_EQ(cell_index((0.299999) / 0.3, 30), 29);
+  EXPECT_EQ(cell_index((0.155) / 0.3, 30), 15);
+  EXPECT_EQ(cell_index(0.375, 8), 3);
+  EXPECT_EQ(cell_index((0.1) / 0.3, 1), 0);
 }
 
 TEST(CellIndex, WrapsAtBothEnds)
 {
-  EXPECT_EQ(cell_index(0.3, 0.0, 0.3, 30), 0); // hi is lo again
-  EXPECT_EQ(cell_index(-0.001, 0.0, 0.3, 30), 29);
-  EXPECT_EQ(cell_index(0.305, 0.0, 0.3, 30), 0);
+  EXPECT_EQ(cell_index((0.3) / 0.3, 30), 0); // hi is lo again
+  EXPECT_EQ(cell_index((-0.001) / 0.3, 30), 29);
+  EXPECT_EQ(cell_index((0.305) / 0.3, 30), 0);
   // so little below lo that the wrapped share rounds to 1: the last cell, not one beyond it
-  EXPECT_EQ(cell_index(-1.0e-20, 0.0, 0.3, 30), 29);
-  EXPECT_EQ(cell_index(-5.0e-324, 0.0, 0.3, 30), 29);
-  EXPECT_EQ(cell_index(std::nextafter(0.3, 0.0), 0.0, 0.3, 30), 29);
+  EXPECT_EQ(cell_index((-1.0e-20) / 0.3, 30), 29);
+  EXPECT_EQ(cell_index((-5.0e-324) / 0.3, 30), 29);
+  EXPECT_EQ(cell_index((std::nextafter(0.3, 0.0)) / 0.3, 30), 29);
 }
 
 TEST(CellIndex, EveryImageOfAPointIsInTheSameCell)
@@ -149,7 +149,7 @@ TEST(CellIndex, EveryImageOfAPointIsInTheSameCell)
     // off the cell's faces by 0.01 of a cell; coordinates of up to 1e4 in a box of 1e-3 round by 2e-9 of the
     // box, which is 2e-6 of the smallest cell
     const double share = (cell + random.uniform(0.01, 0.99)) / n;
-    ASSERT_EQ(cell_index(lo + share * length + image * length, lo, length, n), cell);
+    ASSERT_EQ(cell_index((lo + share * length + image * length - lo) * (1.0 / length), n), cell);
   }
 }
 
@@ -160,7 +160,7 @@ TEST(CellIndex, AlwaysACell)
     const int n = random.integer(1, 2000000000);
     const double lo = random.uniform(-1.0, 1.0), length = random.log_uniform(1.0e-9, 1.0e3);
     const double x = random.vector(1.0e9)[0];
-    const int cell = cell_index(x, lo, length, n);
+    const int cell = cell_index((x - lo) / length, n);
     ASSERT_GE(cell, 0) << x;
     ASSERT_LT(cell, n) << x;
   }

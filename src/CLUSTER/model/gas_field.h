@@ -42,11 +42,11 @@ inline std::int64_t period_index(double t, double period)
   return k > 0.0 ? static_cast<std::int64_t>(k) : 0;
 }
 
-// Cell of a regular grid of n cells over [lo, lo + length) that x lies in, wrapped into a periodic box.
-inline int cell_index(double x, double lo, double length, int n)
+// Cell of n along one axis of the box, `share` being the position from its lower side over its length,
+// wrapped where a periodic box has not taken it in yet.
+inline int cell_index(double share, int n)
 {
   if (n == 1) return 0;
-  double share = (x - lo) / length;
   if (share < 0.0 || share >= 1.0) share -= std::floor(share);
   const int k = static_cast<int>(share * n);
   return std::min(k, n - 1);
