@@ -22,9 +22,10 @@ tool_present() {
   esac
 }
 
+# install_tools PACKAGE:TOOL…: the packages of the tools that are missing
 install_tools() {
   local tool packages=() commands=()
-  for tool in "${required_tools[@]}"; do
+  for tool in "$@"; do
     tool_present "${tool#*:}" && continue
     packages+=("${tool%%:*}") commands+=("${tool#*:}")
   done

@@ -118,7 +118,7 @@ TEST(Lattice, BetweenTwoSites)
     EXPECT_EQ(shells.begin()->first, 1);
     EXPECT_EQ(shells.begin()->second, 2);
     EXPECT_EQ(shells[3], axis0 < 0 ? 4 : 2);
-    if (axis0 == 0) EXPECT_EQ(shells[7], 4);
+    if (axis0 == 0) { EXPECT_EQ(shells[7], 4); }
   }
 }
 
