@@ -271,3 +271,8 @@ def test_newborns_draw_a_fluctuation_of_their_own(tmp_path):
         write("xu", "zu", *COLUMNS), write("f_drag[*]"))).dump()
     u = np.append(row["f_drag[1]"], before)
     assert len(u) > 5 and len(np.unique(u)) == len(u)
+
+
+def test_atom_map_is_switched_on_by_the_fix(tmp_path):
+    script = scene(two()[0], "K 1 terms mf").replace("atom_modify  map hash sort 0 0", "atom_modify  sort 0 0")
+    assert run(tmp_path, script, 2).dump()["f_size[1]"].tolist() == [700]
