@@ -104,12 +104,7 @@ FixClusterBreakMerge::~FixClusterBreakMerge()
   }
   memory->destroy(count);
   memory->destroy(array_atom);
-  memory->destroy(stable);
-  memory->destroy(power);
-  memory->destroy(ncontacts);
-  memory->sfree(suitor);
-  memory->destroy(room);
-  memory->destroy(proceeds);
+  free_scratch();
 }
 
 /* ---------------------------------------------------------------------- */

@@ -153,6 +153,7 @@ class FixClusterBreakMerge : public Fix {
   // fix_cluster_breakmerge_check.cpp: what holds now
   int particle_count(int i);
   void size_scratch();
+  void free_scratch();
   void measure();
   void add_up_contacts();
   void average_cells();

@@ -50,16 +50,21 @@ int FixClusterBreakMerge::particle_count(int i)
 
 /* ---------------------------------------------------------------------- */
 
-void FixClusterBreakMerge::size_scratch()
+void FixClusterBreakMerge::free_scratch()
 {
-  if (nmax_check >= atom->nmax) return;
-  nmax_check = atom->nmax;
   memory->destroy(stable);
   memory->destroy(power);
   memory->destroy(ncontacts);
   memory->sfree(suitor);
   memory->destroy(room);
   memory->destroy(proceeds);
+}
+
+void FixClusterBreakMerge::size_scratch()
+{
+  if (nmax_check >= atom->nmax) return;
+  nmax_check = atom->nmax;
+  free_scratch();
   memory->create(stable, nmax_check, "cluster/breakmerge:stable");
   memory->create(power, nmax_check, "cluster/breakmerge:power");
   memory->create(ncontacts, nmax_check, "cluster/breakmerge:ncontacts");

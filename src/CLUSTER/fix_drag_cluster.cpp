@@ -16,7 +16,6 @@
 #include "input.h"
 #include "memory.h"
 #include "modify.h"
-#include "text_file_reader.h"
 #include "update.h"
 #include "variable.h"
 
@@ -107,114 +106,6 @@ FixDragCluster::~FixDragCluster()
   memory->destroy(draw);
   memory->destroy(velocity_atom);
   memory->destroy(array_atom);
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixDragCluster::parse_velocity(StyleArguments &args)
-{
-  const char *names[3] = {"velocity ux", "velocity uy", "velocity uz"};
-  for (int k = 0; k < 3; k++) {
-    velocity[k] = Component();
-    if (args.more() && args.peek().rfind("v_", 0) == 0) velocity[k].variable = args.word(names[k]).substr(2);
-    else velocity[k].value = args.number(names[k], "a finite number or v_name [velocity]");
-  }
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixDragCluster::parse_fluctuation(StyleArguments &args)
-{
-  for (double &a : amplitude) {
-    a = args.number("fluctuation amplitude", "a number >= 0 [velocity]");
-    if (a < 0.0) args.refuse("fluctuation amplitude", "a number >= 0 [velocity]");
-  }
-  fluctuation = args.choice("fluctuation", {"cell", "own"}) == 0 ? PER_CELL : OWN;
-  if (fluctuation == PER_CELL)
-    for (int &n : cells) n = args.integer("fluctuation cell count", 1);
-  if (args.next_is("frozen")) {
-    args.word("PERIOD");
-    period = 0.0;
-  } else {
-    period = args.number("fluctuation PERIOD", "frozen or a time > 0");
-    if (!(period > 0.0)) args.refuse("fluctuation PERIOD", "frozen or a time > 0");
-  }
-  seed = args.integer("fluctuation SEED", 1);
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixDragCluster::parse_law(StyleArguments &args)
-{
-  const std::string name = args.word("law NAME");
-  std::string known;
-  for (const auto &entry : drag_laws()) {
-    known += (known.empty() ? "" : " | ") + std::string(entry.name);
-    if (name != entry.name) continue;
-    std::vector<double> values;
-    for (const auto &parameter : entry.parameters) {
-      const std::string what = fmt::format("law {} {}", name, parameter.name);
-      const std::string rule = fmt::format("a number > {} and <= {}", parameter.lo, parameter.hi);
-      const double x = args.number(what, rule);
-      if (!(x > parameter.lo && x <= parameter.hi)) args.refuse(what, rule);
-      values.push_back(x);
-    }
-    law = entry.make(values.data());
-    return;
-  }
-  args.refuse("law", known);
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixDragCluster::parse_plane(StyleArguments &args)
-{
-  const int left_out = 2 - args.choice("plane", {"xy", "xz", "yz"});
-  for (int k = 0; k < 3; k++) acts_along[k] = k != left_out;
-}
-
-/* ----------------------------------------------------------------------
-   columns: position along the axis, ux, uy, uz; # starts a comment
-------------------------------------------------------------------------- */
-
-void FixDragCluster::parse_profile(StyleArguments &args)
-{
-  const std::string file = args.word("profile FILE");
-  profile_axis = args.choice("profile axis", {"x", "y", "z"});
-
-  std::vector<double> rows;
-  if (comm->me == 0) {
-    int line = 0;
-    try {
-      TextFileReader reader(file, "gas profile");
-      while (char *text = reader.next_line()) {
-        line++;
-        ValueTokenizer values(text);
-        if (values.count() != 4)
-          throw TokenizerException("a row needs 4 numbers: position ux uy uz", text);
-        for (int k = 0; k < 4; k++) {
-          const double x = values.next_double();
-          if (!std::isfinite(x)) throw TokenizerException("a value is not finite", text);
-          rows.push_back(x);
-        }
-        const std::size_t n = rows.size();
-        if (n >= 8 && !(rows[n - 4] > rows[n - 8]))
-          throw TokenizerException("positions must ascend", text);
-      }
-    } catch (std::exception &e) {
-      error->one(FLERR, "Fix {}: cannot use gas profile {}, data row {}: {}", style, file, line, e.what());
-    }
-    if (rows.empty()) error->one(FLERR, "Fix {}: gas profile {} has no data row", style, file);
-  }
-  int n = static_cast<int>(rows.size());
-  MPI_Bcast(&n, 1, MPI_INT, 0, world);
-  rows.resize(n);
-  MPI_Bcast(rows.data(), n, MPI_DOUBLE, 0, world);
-  profile = GasProfile();
-  for (int k = 0; k < n; k += 4) {
-    profile.s.push_back(rows[k]);
-    profile.u.push_back({rows[k + 1], rows[k + 2], rows[k + 3]});
-  }
 }
 
 /* ---------------------------------------------------------------------- */
