@@ -33,7 +33,7 @@ find_package(MPI REQUIRED COMPONENTS CXX)
 string(TOUPPER LAMMPS_${LAMMPS_SIZES} sizes_macro)
 
 add_library(lammps INTERFACE)
-target_include_directories(lammps SYSTEM INTERFACE ${lammps_src})
+target_include_directories(lammps SYSTEM INTERFACE ${lammps_src} ${lammps_src}/GRANULAR)
 target_compile_definitions(lammps INTERFACE ${sizes_macro} CLUSTER_LAMMPS_VERSION=${CLUSTER_LAMMPS_VERSION}
   OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
 target_link_libraries(lammps INTERFACE MPI::MPI_CXX)

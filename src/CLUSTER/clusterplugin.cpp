@@ -8,9 +8,12 @@
 
 #include "lammpsplugin.h"
 
+#include "atom_vec_cluster.h"
 #include "fix_cluster_breakmerge.h"
 #include "fix_drag_cluster.h"
+#include "pair_gran_cluster.h"
 
+#include "atom.h"
 #include "error.h"
 #include "lammps.h"
 #include "version.h"
@@ -22,6 +25,16 @@ using namespace LAMMPS_NS;
 template <class FixClass> static void *create_fix(void *lmp, int narg, char **arg)
 {
   return new FixClass((LAMMPS *) lmp, narg, arg);
+}
+
+static Pair *create_pair(LAMMPS *lmp)
+{
+  return new PairGranCluster(lmp);
+}
+
+static AtomVec *create_atom_vec(LAMMPS *lmp)
+{
+  return new AtomVecCluster(lmp);
 }
 
 extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
@@ -47,6 +60,16 @@ extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   plugin.info = "size, breakup and merging of particle clusters";
   plugin.creator.v2 = (lammpsplugin_factory2 *) &create_fix<FixClusterBreakMerge>;
   register_style(&plugin, lmp);
+
+  plugin.style = "pair";
+  plugin.name = "gran/cluster";
+  plugin.info = "contact of particle clusters";
+  plugin.creator.v1 = (lammpsplugin_factory1 *) &create_pair;
+  register_style(&plugin, lmp);
+
+  // The plugin interface knows no atom styles, but their table is open. An atom style outlives the unloading
+  // of plugins when LAMMPS is cleared: the library is linked to stay in memory.
+  (*lammps->atom->avec_map)["cluster"] = &create_atom_vec;
 }
 
 #endif

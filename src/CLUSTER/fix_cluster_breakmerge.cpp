@@ -57,7 +57,7 @@ FixClusterBreakMerge::FixClusterBreakMerge(LAMMPS *lmp, int narg, char **arg) :
   dynamic_group_allow = 0;
 
   if (!atom->radius_flag || !atom->rmass_flag)
-    error->all(FLERR, "Fix {} requires atom style sphere: clusters have a diameter and a mass", style);
+    error->all(FLERR, "Fix {} requires atom style sphere or cluster: clusters have a diameter and a mass", style);
   if (domain->dimension == 2)
     error->all(FLERR, "Fix {} requires a 3-d simulation (clusters are spheres): for motion in a plane "
                "use dimension 3 with 'plane xz'", style);
@@ -236,6 +236,7 @@ void FixClusterBreakMerge::init()
                "the minimum fluidization)", me, k_value, k, u_mf * 3.0e-4);
 
   pairs.find(me, groupbit, geometry.diameter(limits.hi));
+  pairs.expect_contacts(next_check(update->ntimestep));
   check_room();
   const double finest = spacing * geometry.diameter(limits.lo);
   const int axis0 = planar ? 0 : -1, axis1 = planar ? 2 : -1;
@@ -335,6 +336,13 @@ void FixClusterBreakMerge::setup(int)
   output_step = -1;
 }
 
+bigint FixClusterBreakMerge::next_check(bigint step) const
+{
+  return (step / nevery + 1) * nevery;
+}
+
+/* ---------------------------------------------------------------------- */
+
 void FixClusterBreakMerge::reset_grid()
 {
   if (averages) averages->reset();
@@ -350,6 +358,7 @@ void FixClusterBreakMerge::post_integrate()
 
   comm->forward_comm();    // clusters have moved, their ghosts have not
   measure();
+  pairs.expect_contacts(next_check(update->ntimestep));
   if (breaking) propose_breaks();
   if (merging) propose_merges();
 

@@ -144,6 +144,7 @@ class FixClusterBreakMerge : public Fix {
   double output[11];
   bigint output_step;
 
+  bigint next_check(bigint step) const;    // the first check after it
   void parse(StyleArguments &);
   void parse_terms(StyleArguments &);
   void find_drag();

@@ -45,7 +45,8 @@ void FixClusterBreakMerge::pre_exchange()
       totals[MERGES]++;
       totals[E_LOST] += e.energy_lost;
       totals[E_BORN] += e.energy_born;
-      for (int axis = 0; axis < 3; axis++) atom->omega[e.i][axis] = e.omega[axis];
+      if (atom->omega_flag)
+        for (int axis = 0; axis < 3; axis++) atom->omega[e.i][axis] = e.omega[axis];
     }
     if (pieces > 1) {
       totals[BREAKUPS]++;
@@ -99,7 +100,8 @@ void FixClusterBreakMerge::create_fragments(const Event &e, tagint first)
     atom->tag[m] = first + piece - 1;
     atom->mask[m] = atom->mask[i];
     atom->image[m] = atom->image[i];
-    for (int axis = 0; axis < 3; axis++) atom->omega[m][axis] = atom->omega[i][axis];
+    if (atom->omega_flag)
+      for (int axis = 0; axis < 3; axis++) atom->omega[m][axis] = atom->omega[i][axis];
     modify->create_attribute(m);
     for (int column = 0; column < size_peratom_cols; column++) array_atom[m][column] = array_atom[i][column];
     become(m, e.plan.particles(piece), x, e.body.v);

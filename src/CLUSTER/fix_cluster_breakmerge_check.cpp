@@ -99,7 +99,6 @@ void FixClusterBreakMerge::add_up_contacts()
   const int nall = nlocal + atom->nghost;
   const bool want_power = term_cc && ncc_factor > 0.0;
   const bool want_tags = test == CONTACT_ENDED;
-  double **v = atom->v;
 
   std::fill(power, power + nall, 0.0);
   std::fill(ncontacts, ncontacts + nall, 0);
@@ -112,7 +111,7 @@ void FixClusterBreakMerge::add_up_contacts()
   for (const auto &contact : pairs.contacts()) {
     const int i = contact.i, j = contact.j;
     // F_ij . (V_i - V_j), the same for both
-    const double p = want_power ? dot(pairs.contact_force(contact), to_vec3(v[i]) - to_vec3(v[j])) : 0.0;
+    const double p = want_power ? pairs.power(contact) : 0.0;
     const bool both = force->newton_pair || j < nlocal;
     power[i] += p;
     ncontacts[i]++;

@@ -74,7 +74,8 @@ void FixClusterBreakMerge::propose_merges()
     e.j = j;
     e.plan = plan_breakup(n, n_l, limits.lo);    // one piece, or a refused merge that breaks
     e.body = combine(a, b);
-    e.omega = (a.mass / e.body.mass) * to_vec3(atom->omega[i]) + (b.mass / e.body.mass) * to_vec3(atom->omega[j]);
+    if (atom->omega_flag)
+      e.omega = (a.mass / e.body.mass) * to_vec3(atom->omega[i]) + (b.mass / e.body.mass) * to_vec3(atom->omega[j]);
     e.stiffness = suitor[i].stiffness;
     e.energy_lost = energy_lost(a, b);
     events.push_back(std::move(e));

@@ -49,7 +49,7 @@ FixDragCluster::FixDragCluster(LAMMPS *lmp, int narg, char **arg) :
   time_depend = 1;    // the fluctuation depends on the elapsed time
 
   if (!atom->radius_flag || !atom->rmass_flag)
-    error->all(FLERR, "Fix {} requires atom style sphere: clusters have a diameter and a mass", style);
+    error->all(FLERR, "Fix {} requires atom style sphere or cluster: clusters have a diameter and a mass", style);
 
   StyleArguments args(lmp, narg, arg, 3);
   gas.rho = args.positive("rho_g", "mass/volume");
@@ -120,7 +120,7 @@ int FixDragCluster::setmask()
 void FixDragCluster::init()
 {
   if (!atom->radius_flag || !atom->rmass_flag)
-    error->all(FLERR, "Fix {} {} requires atom style sphere", style, id);
+    error->all(FLERR, "Fix {} {} requires atom style sphere or cluster", style, id);
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix {} {} does not support run_style respa: use run_style verlet", style, id);
   if (domain->triclinic) error->all(FLERR, "Fix {} {} does not support triclinic boxes", style, id);

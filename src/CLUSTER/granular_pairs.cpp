@@ -9,7 +9,8 @@
 #include "error.h"
 #include "force.h"
 #include "neigh_list.h"
-#include "pair.h"
+#include "pair_gran_cluster.h"
+#include "update.h"
 #include "utils.h"
 
 #include <cmath>
@@ -55,8 +56,8 @@ void GranularPairs::find(const std::string &fix, int groupbit, double largest_di
         error->all(FLERR,
                    "{}: the pair cutoff of types {} and {} is {}, below the largest cluster diameter {} "
                    "that the limits allow, so that merged clusters would overlap without a force: add "
-                   "'cutoff {}' to pair_coeff of pair style granular, or for gran/* use pair_style "
-                   "hybrid/overlay with 'zero {}'",
+                   "'cutoff {}' to pair_coeff of pair style granular or to pair_style gran/cluster, or for other gran/* "
+                   "use pair_style hybrid/overlay with 'zero {}'",
                    fix, a, b, cutoff, largest_diameter, largest_diameter * 1.0001,
                    largest_diameter * 1.0001);
     }
@@ -64,26 +65,52 @@ void GranularPairs::find(const std::string &fix, int groupbit, double largest_di
 
 /* ---------------------------------------------------------------------- */
 
+void GranularPairs::expect_contacts(bigint step)
+{
+  for (Pair *pair : pairs)
+    if (auto *ours = dynamic_cast<PairGranCluster *>(pair)) ours->record_contacts(step - 1);
+}
+
+/* ---------------------------------------------------------------------- */
+
 void GranularPairs::find_contacts()
+{
+  touching.clear();
+  for (Pair *pair : pairs) {
+    const auto *ours = dynamic_cast<const PairGranCluster *>(pair);
+    if (ours && ours->contacts_recorded(update->ntimestep - 1))
+      for (const auto &c : ours->contacts()) touching.push_back({c.i, c.j, pair, true, c.power});
+    else
+      walk(pair);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void GranularPairs::walk(Pair *pair)
 {
   double **x = atom->x;
   const double *radius = atom->radius;
-
-  touching.clear();
-  for (Pair *pair : pairs) {
-    const NeighList *list = pair->list;
-    for (int ii = 0; ii < list->inum; ii++) {
-      const int i = list->ilist[ii];
-      const int *jlist = list->firstneigh[i];
-      const double xi = x[i][0], yi = x[i][1], zi = x[i][2], ri = radius[i];
-      for (int jj = 0; jj < list->numneigh[i]; jj++) {
-        const int j = jlist[jj] & NEIGHMASK;
-        const double dx = xi - x[j][0], dy = yi - x[j][1], dz = zi - x[j][2];
-        const double reach = ri + radius[j];
-        if (dx * dx + dy * dy + dz * dz < reach * reach) touching.push_back({i, j, pair});
-      }
+  const NeighList *list = pair->list;
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii];
+    const int *jlist = list->firstneigh[i];
+    const double xi = x[i][0], yi = x[i][1], zi = x[i][2], ri = radius[i];
+    for (int jj = 0; jj < list->numneigh[i]; jj++) {
+      const int j = jlist[jj] & NEIGHMASK;
+      const double dx = xi - x[j][0], dy = yi - x[j][1], dz = zi - x[j][2];
+      const double reach = ri + radius[j];
+      if (dx * dx + dy * dy + dz * dz < reach * reach) touching.push_back({i, j, pair, false, 0.0});
     }
   }
+}
+
+/* ---------------------------------------------------------------------- */
+
+double GranularPairs::power(const Contact &c) const
+{
+  if (c.noted) return c.noted_power;
+  return dot(contact_force(c), to_vec3(atom->v[c.i]) - to_vec3(atom->v[c.j]));
 }
 
 /* ----------------------------------------------------------------------
@@ -92,10 +119,10 @@ void GranularPairs::find_contacts()
 
 Vec3 GranularPairs::contact_force(const Contact &c) const
 {
-  const Vec3 dx = ClusterDEM::to_vec3(atom->x[c.i]) - ClusterDEM::to_vec3(atom->x[c.j]);
+  const Vec3 dx = to_vec3(atom->x[c.i]) - to_vec3(atom->x[c.j]);
   double normal = 0.0;
-  c.pair->single(c.i, c.j, atom->type[c.i], atom->type[c.j], ClusterDEM::dot(dx, dx), 1.0, 1.0, normal);
-  return normal * dx + ClusterDEM::to_vec3(c.pair->svector);
+  c.pair->single(c.i, c.j, atom->type[c.i], atom->type[c.j], dot(dx, dx), 1.0, 1.0, normal);
+  return normal * dx + to_vec3(c.pair->svector);
 }
 
 /* ----------------------------------------------------------------------
@@ -104,13 +131,14 @@ Vec3 GranularPairs::contact_force(const Contact &c) const
 
 double GranularPairs::stiffness(const Contact &c) const
 {
+  if (const auto *ours = dynamic_cast<const PairGranCluster *>(c.pair)) return ours->contact_law().k_n;
   double *vi = atom->v[c.i];
   double kept[3];
   memcpy(kept, vi, sizeof(kept));
   memcpy(vi, atom->v[c.j], sizeof(kept));
-  const Vec3 dx = ClusterDEM::to_vec3(atom->x[c.i]) - ClusterDEM::to_vec3(atom->x[c.j]);
+  const Vec3 dx = to_vec3(atom->x[c.i]) - to_vec3(atom->x[c.j]);
   double normal = 0.0;
-  c.pair->single(c.i, c.j, atom->type[c.i], atom->type[c.j], ClusterDEM::dot(dx, dx), 1.0, 1.0, normal);
+  c.pair->single(c.i, c.j, atom->type[c.i], atom->type[c.j], dot(dx, dx), 1.0, 1.0, normal);
   memcpy(vi, kept, sizeof(kept));
   const double r = ClusterDEM::norm(dx);
   const double overlap = atom->radius[c.i] + atom->radius[c.j] - r;

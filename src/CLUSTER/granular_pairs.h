@@ -3,7 +3,8 @@
 ------------------------------------------------------------------------- */
 
 // The granular pair style, or the granular sub-styles of a hybrid one: which clusters touch, and the
-// contact force between two of them.
+// contact force between two of them. Pair gran/cluster notes its contacts while it computes; of any other
+// style the neighbor list is walked again and single() is asked.
 
 #ifndef LMP_GRANULAR_PAIRS_H
 #define LMP_GRANULAR_PAIRS_H
@@ -23,6 +24,8 @@ class GranularPairs : protected Pointers {
   struct Contact {
     int i, j;    // as they stand in the neighbor list: i is owned
     Pair *pair;
+    bool noted;            // power is known already
+    double noted_power;
   };
 
   GranularPairs(class LAMMPS *lmp) : Pointers(lmp) {}
@@ -31,12 +34,17 @@ class GranularPairs : protected Pointers {
   // clusters of the largest diameter could be missed
   void find(const std::string &fix, int groupbit, double largest_diameter);
 
-  // collect all pairs of the half neighbor lists that overlap now
+  // contacts() will be asked for at that step, before its forces: pair gran/cluster then notes those of the
+  // step before while it computes
+  void expect_contacts(bigint step);
+
+  // collect all pairs of the half neighbor lists in contact: as noted at the last evaluation of forces, else those
+  // that overlap now
   void find_contacts();
   const std::vector<Contact> &contacts() const { return touching; }
 
-  // force of j on i, at this instant
-  ClusterDEM::Vec3 contact_force(const Contact &) const;
+  // F_ij . (V_i - V_j), at the instant of find_contacts()
+  double power(const Contact &) const;
 
   // elastic normal force over overlap at this instant, damping left out
   double stiffness(const Contact &) const;
@@ -44,6 +52,9 @@ class GranularPairs : protected Pointers {
  private:
   std::vector<Pair *> pairs;
   std::vector<Contact> touching;
+
+  void walk(Pair *);
+  ClusterDEM::Vec3 contact_force(const Contact &) const;
 };
 
 }    // namespace LAMMPS_NS

@@ -2,17 +2,19 @@
    Cluster DEM for LAMMPS. Distributed under the GNU General Public License, version 2 or later.
 ------------------------------------------------------------------------- */
 
-// Reads the words of a fix command one after the other. Every refusal names the word, the value
+// Reads the words of a command one after the other. Every refusal names the word, the value
 // and the rule, and LAMMPS prints the input line with a caret under the word.
 
 #ifndef LMP_STYLE_ARGUMENTS_H
 #define LMP_STYLE_ARGUMENTS_H
 
 #include "error.h"
+#include "input.h"
 #include "pointers.h"
 #include "utils.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <initializer_list>
 #include <string>
 
@@ -20,8 +22,14 @@ namespace LAMMPS_NS {
 
 class StyleArguments : protected Pointers {
  public:
+  // of a fix: ID group style and what follows
   StyleArguments(LAMMPS *lmp, int narg, char **arg, int first) :
-      Pointers(lmp), narg_(narg), arg_(arg), i_(first), style_(arg[2])
+      Pointers(lmp), narg_(narg), arg_(arg), i_(first), offset_(0), command_(std::string("fix ") + arg[2])
+  {
+  }
+  // of any other command that hands over the words after its first ones; `command` names it in messages
+  StyleArguments(LAMMPS *lmp, const std::string &command, int narg, char **arg) :
+      Pointers(lmp), narg_(narg), arg_(arg), i_(0), offset_(static_cast<int>(arg - input->arg)), command_(command)
   {
   }
 
@@ -29,30 +37,31 @@ class StyleArguments : protected Pointers {
   bool next_is(const char *word) const { return more() && peek() == word; }
   std::string peek() const { return arg_[i_]; }
   std::string last() const { return arg_[i_ - 1]; }
+  int caret() const { return offset_ + i_ - 1; }    // where LAMMPS' caret goes for the word read last
 
   // the keyword or value that stands next; `what` names it in the message when it is missing
   std::string word(const std::string &what)
   {
-    if (!more()) error->all(FLERR, "Illegal fix {} command: missing {}", style_, what);
+    if (!more()) error->all(FLERR, "Illegal {} command: missing {}", command_, what);
     return arg_[i_++];
   }
 
   [[noreturn]] void refuse(const std::string &what, const std::string &rule) const
   {
-    error->all(FLERR, i_ - 1, "Illegal fix {} {} value: {} (must be {})", style_, what, arg_[i_ - 1],
+    error->all(FLERR, caret(), "Illegal {} {} value: {} (must be {})", command_, what, arg_[i_ - 1],
                rule);
   }
 
   [[noreturn]] void unknown_keyword() const
   {
-    error->all(FLERR, i_ - 1, "Unknown fix {} keyword: {}", style_, arg_[i_ - 1]);
+    error->all(FLERR, caret(), "Unknown {} keyword: {}", command_, arg_[i_ - 1]);
   }
 
   double number(const std::string &what, const std::string &rule = "a finite number")
   {
     const std::string value = word(what);
     if (!utils::is_double(value)) refuse(what, rule);
-    const double x = utils::numeric(FLERR, value, false, lmp);
+    const double x = std::strtod(value.c_str(), nullptr);    // infinite where LAMMPS' own stops without a caret
     if (!std::isfinite(x)) refuse(what, rule);
     return x;
   }
@@ -76,7 +85,7 @@ class StyleArguments : protected Pointers {
     const std::string value = word(what);
     if (!utils::is_integer(value)) refuse(what, rule);
     // as a double first: a value beyond the range of int is refused here, in these words
-    const double x = std::stod(value);
+    const double x = std::strtod(value.c_str(), nullptr);
     if (x < lo || x > MAXSMALLINT) refuse(what, rule);
     return static_cast<int>(x);
   }
@@ -95,13 +104,12 @@ class StyleArguments : protected Pointers {
   }
   bool yes(const std::string &what) { return choice(what, {"no", "yes"}) == 1; }
 
-  const std::string &style() const { return style_; }
-
  private:
   int narg_;
   char **arg_;
   int i_;
-  std::string style_;
+  int offset_;    // of arg_ in the command that LAMMPS points into
+  std::string command_;
 };
 
 }    // namespace LAMMPS_NS
