@@ -86,6 +86,7 @@ void FixDragCluster::parse_plane(StyleArguments &args)
 void FixDragCluster::parse_profile(StyleArguments &args)
 {
   const std::string file = args.word("profile FILE");
+  const int caret = args.caret();
   profile_axis = args.choice("profile axis", {"x", "y", "z"});
 
   std::vector<double> rows;
@@ -108,9 +109,9 @@ void FixDragCluster::parse_profile(StyleArguments &args)
           throw TokenizerException("positions must ascend", text);
       }
     } catch (std::exception &e) {
-      error->one(FLERR, "Fix {}: cannot use gas profile {}, data row {}: {}", style, file, line, e.what());
+      error->one(FLERR, caret, "Fix {}: cannot use gas profile {}, data row {}: {}", style, file, line, e.what());
     }
-    if (rows.empty()) error->one(FLERR, "Fix {}: gas profile {} has no data row", style, file);
+    if (rows.empty()) error->one(FLERR, caret, "Fix {}: gas profile {} has no data row", style, file);
   }
   int n = static_cast<int>(rows.size());
   MPI_Bcast(&n, 1, MPI_INT, 0, world);
