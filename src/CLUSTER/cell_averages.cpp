@@ -53,7 +53,7 @@ void CellAverages::clear()
    cell by the same rule as the grid itself: no wrap, ghost cells lie outside 0 .. n-1
 ------------------------------------------------------------------------- */
 
-int CellAverages::offset(const double *x) const
+std::size_t CellAverages::offset(const double *x) const
 {
   int index[3];
   for (int k = 0; k < 3; k++) {
@@ -64,7 +64,8 @@ int CellAverages::offset(const double *x) const
       error->one(FLERR, "A cluster at {} {} {} lies outside of the cells of its rank", x[0], x[1], x[2]);
     index[k] -= lo[k];
   }
-  return NVALUES * ((index[2] * (hi[1] - lo[1] + 1) + index[1]) * (hi[0] - lo[0] + 1) + index[0]);
+  const std::size_t width = hi[0] - lo[0] + 1, depth = hi[1] - lo[1] + 1;
+  return NVALUES * ((index[2] * depth + index[1]) * width + index[0]);
 }
 
 void CellAverages::add(const double *x, int value, double amount)
@@ -98,14 +99,14 @@ double CellAverages::memory_usage() const
 void CellAverages::pack(double *buf, int nlist, const int *list) const
 {
   for (int k = 0; k < nlist; k++)
-    for (int v = 0; v < NVALUES; v++) *buf++ = cells[NVALUES * list[k] + v];
+    for (int v = 0; v < NVALUES; v++) *buf++ = cells[static_cast<std::size_t>(NVALUES) * list[k] + v];
 }
 
 void CellAverages::unpack(const double *buf, int nlist, const int *list, bool add_up)
 {
   for (int k = 0; k < nlist; k++)
     for (int v = 0; v < NVALUES; v++, buf++) {
-      double &cell = cells[NVALUES * list[k] + v];
+      double &cell = cells[static_cast<std::size_t>(NVALUES) * list[k] + v];
       cell = (add_up ? cell : 0.0) + *buf;
     }
 }

@@ -19,6 +19,7 @@ class Grid3d;
 class CellAverages : protected Pointers {
  public:
   enum { MASS, MASS_SPEED, DRAG_POWER, NVALUES };
+  static constexpr int MOST = 100000000;    // cells in all: 2.4 GB
 
   // fix: the owner, whose grid callbacks end in pack() and unpack()
   CellAverages(class LAMMPS *lmp, Fix *fix, const int *cells);
@@ -42,7 +43,7 @@ class CellAverages : protected Pointers {
   int lo[3], hi[3];    // cells that this rank stores, ghosts included
   std::vector<double> cells, buf1, buf2;
 
-  int offset(const double *x) const;
+  std::size_t offset(const double *x) const;
 };
 
 }    // namespace LAMMPS_NS

@@ -27,6 +27,7 @@ using namespace ClusterDEM;
 
 static constexpr int COLUMNS = 6;
 static constexpr int OUTPUTS = 11;
+static constexpr double MOST_SITES = 1.0e7;    // of a lattice for fragments: 0.4 GB
 
 /* ---------------------------------------------------------------------- */
 
@@ -135,7 +136,9 @@ void FixClusterBreakMerge::parse(StyleArguments &args)
       if (!(eps_mf >= 0.0 && eps_mf < 1.0)) args.refuse(keyword, "a number >= 0 and < 1");
     } else if (keyword == "grid") {
       cells_given = true;
-      for (int &n : cells) n = args.integer("grid", 1);
+      double all = 1.0;
+      for (int &n : cells) all *= n = args.integer("grid", 1);
+      if (all > CellAverages::MOST) args.refuse("grid", fmt::format("at most {} cells in all", CellAverages::MOST));
     } else if (keyword == "nst")
       nst = static_cast<NstReading>(args.choice(keyword, {"particle", "cluster", "cell"}));
     else if (keyword == "nsmf")
@@ -239,6 +242,11 @@ void FixClusterBreakMerge::init()
   pairs.expect_contacts(next_check(update->ntimestep));
   check_room();
   const double finest = spacing * geometry.diameter(limits.lo);
+  const double sites = ClusterDEM::Lattice::sites_within(planar, claim_max / finest + 1.0);
+  if (sites > MOST_SITES)
+    error->all(FLERR, "{}: the claim {} [length] holds {:.3g} sites of a lattice for fragments of {} particles, more than "
+               "{:.3g}: raise the lower limit or the spacing, or use a smaller claim", me, claim_max, sites, limits.lo,
+               MOST_SITES);
   const int axis0 = planar ? 0 : -1, axis1 = planar ? 2 : -1;
   lattices = std::make_unique<Lattices>(axis0, axis1, claim_max / finest + 1.0);
 }

@@ -155,6 +155,7 @@ class FixClusterBreakMerge : public Fix {
   int particle_count(int i);
   void size_scratch();
   void free_scratch();
+  void check_finite();
   void measure();
   void add_up_contacts();
   void average_cells();

@@ -38,6 +38,7 @@ void FixClusterBreakMerge::pre_exchange()
   atom->nghost = 0;
   atom->avec->clear_bonus();
 
+  const int nlocal_before = atom->nlocal;
   std::size_t birth = 0;
   for (const Event &e : events) {
     const int pieces = e.plan.pieces();
@@ -58,8 +59,10 @@ void FixClusterBreakMerge::pre_exchange()
   delete_dying();
   events.clear();
 
-  bigint mine = atom->nlocal;
-  MPI_Allreduce(&mine, &atom->natoms, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  // what the events made, not a recount: clusters that left the box must stay missing in the engine's own test
+  bigint made = atom->nlocal - nlocal_before, made_all = 0;
+  MPI_Allreduce(&made, &made_all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  atom->natoms += made_all;
   if (atom->natoms < 0 || atom->natoms >= MAXBIGINT)
     error->all(FLERR, "Fix {} {}: too many clusters", style, id);
   atom->map_init();

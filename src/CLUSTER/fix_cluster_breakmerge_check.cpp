@@ -15,6 +15,7 @@
 #include "error.h"
 #include "force.h"
 #include "memory.h"
+#include "update.h"
 
 #include <algorithm>
 
@@ -74,12 +75,27 @@ void FixClusterBreakMerge::size_scratch()
 }
 
 /* ----------------------------------------------------------------------
+   nothing in the engine looks at positions that are not a number until lists are rebuilt, which they prevent
+------------------------------------------------------------------------- */
+
+void FixClusterBreakMerge::check_finite()
+{
+  for (int i = 0; i < atom->nlocal; i++) {
+    const Vec3 state = to_vec3(atom->x[i]) + to_vec3(atom->v[i]);
+    if (!std::isfinite(state[0] + state[1] + state[2]))
+      error->one(FLERR, "Fix {} {}: position and velocity of cluster {} are not finite at step {}: clusters at one "
+                 "point, or a time step that is too long", style, id, atom->tag[i], update->ntimestep);
+  }
+}
+
+/* ----------------------------------------------------------------------
    l of every owned cluster, and what it is made of
 ------------------------------------------------------------------------- */
 
 void FixClusterBreakMerge::measure()
 {
   size_scratch();
+  check_finite();
   for (int i = 0; i < atom->nlocal; i++)
     if (atom->mask[i] & groupbit) particle_count(i);
   add_up_contacts();

@@ -75,7 +75,8 @@ void FixClusterBreakMerge::propose_merges()
     e.plan = plan_breakup(n, n_l, limits.lo);    // one piece, or a refused merge that breaks
     e.body = combine(a, b);
     if (atom->omega_flag)
-      e.omega = (a.mass / e.body.mass) * to_vec3(atom->omega[i]) + (b.mass / e.body.mass) * to_vec3(atom->omega[j]);
+      e.omega = merged_spin({a.mass, atom->radius[i], to_vec3(atom->omega[i])},
+                            {b.mass, atom->radius[j], to_vec3(atom->omega[j])}, 0.5 * geometry.diameter(n));
     e.stiffness = suitor[i].stiffness;
     e.energy_lost = energy_lost(a, b);
     events.push_back(std::move(e));

@@ -36,7 +36,7 @@ FixDragCluster::FixDragCluster(LAMMPS *lmp, int narg, char **arg) :
     cells{1, 1, 1}, period(0.0), seed(0), period_now(0),
     inverse_length{0.0, 0.0, 0.0}, draw(nullptr),
     acts_along{true, true, true}, unshielded(0.0), particle_d(0.0), particle_mass(0.0),
-    particle_given(false), exponential(false), peratom_rows(0), totals{}, totals_all{}, totals_current(false)
+    particle_given(false), exponential(false), peratom_rows(0), shortest_tau(INFINITY), totals{}, totals_all{}, totals_current(false)
 {
   dynamic_group_allow = 1;
   vector_flag = 1;
@@ -277,10 +277,15 @@ void FixDragCluster::post_force(int)
   totals_current = false;
 
   bool finite = true;
+  shortest_tau = INFINITY;
   for (int first = 0; first < nlocal; first += BLOCK) finite = add_drag(first, MIN(first + BLOCK, nlocal)) && finite;
   if (!finite)
     error->one(FLERR, "Fix {} {}: the drag force is not finite at step {}: check the gas velocity and "
                "the time step", style, id, update->ntimestep);
+  if (!exponential && update->dt > 2.0 * shortest_tau)
+    error->one(FLERR, "Fix {} {}: the time step {} is above twice the relaxation time {} of a cluster at step {}, "
+               "where explicit drag grows without bounds: use a shorter time step or 'integrator exponential'",
+               style, id, update->dt, shortest_tau, update->ntimestep);
 }
 
 /* ----------------------------------------------------------------------
@@ -321,6 +326,7 @@ bool FixDragCluster::add_drag(int first, int last)
       continue;
     }
     const double tau = b[m] > 0.0 ? rmass[i] / b[m] : INFINITY;
+    shortest_tau = MIN(shortest_tau, tau);
     const Vec3 drag = (exponential ? b[m] * exponential_factor(dt / tau) : b[m]) * slip[m];
     for (int k = 0; k < 3; k++) {
       f[i][k] += drag[k];

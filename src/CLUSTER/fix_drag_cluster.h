@@ -94,6 +94,7 @@ class FixDragCluster : public Fix {
   bool exponential;
 
   int peratom_rows;                    // rows that array_atom has room for
+  double shortest_tau;                 // relaxation time on this rank, this step
   double totals[4], totals_all[4];    // force and power on my clusters, on all
   bool totals_current;
 

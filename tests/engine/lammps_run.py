@@ -57,15 +57,19 @@ def launch(np_: int) -> list[str]:
     return [] if np_ == 1 else ["mpirun", "--oversubscribe", "-np", str(np_)]
 
 
-def run(folder: Path, script: str, np_: int = 1, check: bool = True, **variables) -> Run:
+def run(
+    folder: Path, script: str, np_: int = 1, check: bool = True, timeout: float = 600, **variables
+) -> Run:
     """Run `script` in `folder` on np_ ranks."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "in.lmp").write_text(script)
     arguments = ["-in", "in.lmp", "-log", "log.lammps"]
-    return run_file(folder, arguments, np_, check, **variables)
+    return run_file(folder, arguments, np_, check, timeout, **variables)
 
 
-def run_file(folder: Path, arguments: list[str], np_: int = 1, check: bool = True, **variables) -> Run:
+def run_file(
+    folder: Path, arguments: list[str], np_: int = 1, check: bool = True, timeout: float = 600, **variables
+) -> Run:
     folder.mkdir(parents=True, exist_ok=True)
     command = [*launch(np_), LMP, *arguments]
     for name, value in variables.items():
@@ -74,7 +78,7 @@ def run_file(folder: Path, arguments: list[str], np_: int = 1, check: bool = Tru
     if os.geteuid() == 0:
         environment |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
     done = subprocess.run(
-        command, cwd=folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=600
+        command, cwd=folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=timeout
     )
     result = Run(done.returncode, done.stdout + done.stderr, folder)
     if check:

@@ -67,3 +67,12 @@ def test_momentum_is_conserved_by_contacts_breaks_and_merges(tmp_path, np_):
     scale = 300 * 400 * M_P * 2.0
     # each contact, break and merge rounds at 1e-16 of a cluster's momentum
     assert np.abs(p[:, 1:] - p[0, 1:]).max() < 1e-12 * scale
+
+
+def test_a_cluster_that_leaves_is_not_hidden_by_events(tmp_path):
+    """Events go on while a cluster flies out of a fixed side: the engine must still find it missing."""
+    script = scenes.busy(steps=1000).replace("boundary     p f p", "boundary     f f p")
+    script = script.replace("fix move all nve\n", "set atom 7 x 0.0399 vx 30.0\nfix move all nve\n")
+    r = run(tmp_path, script, check=False)
+    assert r.code != 0 and "Lost atoms" in r.output
+    assert r.table()[-1, scenes.BREAKUPS] > 0

@@ -89,8 +89,11 @@ def test_exponential_integrator_never_overshoots(tmp_path, dt_over_tau):
 
 def test_explicit_integrator_is_the_default_and_overshoots(tmp_path):
     tau = 400 * M_P / (3 * np.pi * RHO_G * NU_G * diameter(400))
-    script = one_cluster("velocity 0 0 1e-4 law stokes", dt=float(3 * tau), steps=2)
-    assert run(tmp_path, script).dump()["vz"][0] > 1e-4
+    gas = "velocity 0 0 1e-4 law stokes"
+    passing = run(tmp_path / "1.5", one_cluster(gas, dt=float(1.5 * tau), steps=2))
+    assert passing.dump()["vz"][0] > 1e-4
+    unstable = run(tmp_path / "2.1", one_cluster(gas, dt=float(2.1 * tau), steps=2), check=False)
+    assert unstable.code != 0 and "is above twice the relaxation time" in unstable.output
 
 
 def test_plane_leaves_the_third_direction_alone(tmp_path):

@@ -150,3 +150,26 @@ TEST(OverlapEnergy, ByHand)
   EXPECT_EQ(overlap_energy(10.0, 0.0), 0.0);
   EXPECT_EQ(overlap_energy(10.0, -1.0e-4), 0.0); // apart
 }
+
+TEST(MergedSpin, KeepsTheSpinAndAddsNoEnergy)
+{
+  RandomInputs random(51);
+  for (int k = 0; k < 20000; k++) {
+    const ClusterGeometry g = random.geometry();
+    const int n[2] = {random.integer(3, 2000), random.integer(3, 2000)};
+    Spinning s[2];
+    for (int m = 0; m < 2; m++) s[m] = {g.mass(n[m]), 0.5 * g.diameter(n[m]), random.vector(1.0e4)};
+    if (k % 2) s[1].omega = s[0].omega; // where a mean of the velocities adds most, 59 % for equal clusters
+    const Spinning merged{s[0].mass + s[1].mass, 0.5 * g.diameter(n[0] + n[1]),
+                          merged_spin(s[0], s[1], 0.5 * g.diameter(n[0] + n[1]))};
+    double before = 0.0, scale = 0.0;
+    for (const Spinning &one : s) {
+      before += 0.5 * one.inertia() * dot(one.omega, one.omega);
+      scale += one.inertia() * norm(one.omega);
+    }
+    for (int axis = 0; axis < 3; axis++)
+      ASSERT_NEAR(merged.inertia() * merged.omega[axis],
+                  s[0].inertia() * s[0].omega[axis] + s[1].inertia() * s[1].omega[axis], 8.0 * EPS * scale);
+    ASSERT_LE(0.5 * merged.inertia() * dot(merged.omega, merged.omega), before * (1.0 + 8.0 * EPS));
+  }
+}

@@ -107,6 +107,16 @@ TEST(Lattice, UnitSpacingAndFixedOrder)
   }
 }
 
+TEST(Lattice, SitesWithinAReach)
+{
+  // what is refused before it fills the memory: the estimate errs by the sites along the border alone
+  for (bool planar : {true, false})
+    for (double reach : {10.0, 30.0}) {
+      const Lattice lattice(planar ? 0 : -1, planar ? 2 : -1, reach);
+      EXPECT_NEAR(Lattice::sites_within(planar, reach) / lattice.size(), 1.0, 0.3 / reach) << planar << reach;
+    }
+}
+
 TEST(Lattice, BetweenTwoSites)
 {
   // shells about the middle of a bond, in squared spacings: 1/4, 3/4, 7/4 … in a plane; 1/4, 3/4 … in space

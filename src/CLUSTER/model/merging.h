@@ -35,6 +35,19 @@ inline Body combine(const Body &i, const Body &j)
   return {mass, i.x + share * (j.x - i.x), (i.mass / mass) * i.v + share * j.v};
 }
 
+// Spin of the merged sphere: that of both parents is kept (I = 2/5 m r^2), which never adds energy. A mean
+// of the angular velocities would: I of the merged sphere is larger than of both.
+struct Spinning {
+  double mass, radius;
+  Vec3 omega;
+  double inertia() const { return 0.4 * mass * radius * radius; }
+};
+inline Vec3 merged_spin(const Spinning &i, const Spinning &j, double radius)
+{
+  const double inertia = Spinning{i.mass + j.mass, radius, {}}.inertia();
+  return (i.inertia() / inertia) * i.omega + (j.inertia() / inertia) * j.omega;
+}
+
 // kinetic energy that the inelastic merge takes out: 1/2 m_eff |dV|^2
 inline double energy_lost(const Body &i, const Body &j)
 {

@@ -44,6 +44,12 @@ class Lattice {
       if (site.p > Vec3{0.0, 0.0, 0.0}) half_.push_back(site.p);
   }
 
+  // about how many sites lie within a reach: area or volume over that of a site
+  static double sites_within(bool planar, double reach)
+  {
+    return planar ? PI * reach * reach / std::sqrt(0.75) : 4.0 / 3.0 * PI * reach * reach * reach * std::sqrt(2.0);
+  }
+
   std::size_t size() const { return sites_.size(); }
   const Vec3 &site(std::size_t k) const { return sites_[k].p; }
 
