@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
@@ -193,26 +193,24 @@ def _maps(shown: Sequence[Shown], grid: Grid) -> str:
     return text
 
 
+def _table_by_frame(found: Gathered[Summary], names: Sequence[str], cells: Callable[[Summary], Sequence[str]]) -> str:
+    """A row for each of at most 12 frames: its label, then what `cells` makes of it."""
+    shown = panels_of(len(found.values), 12)
+    rows = [[found.heads[i].label, *cells(found.values[i])] for i in shown]
+    return html.table([["frame", *names], *rows])
+
+
 def _sizes(found: Gathered[Summary], shown: Sequence[Shown], last: Frame) -> str:
     sizes = [value.moment.sizes for value in found.values]
     times = np.array([head.time for head in found.heads])
     steps = np.array([head.step for head in found.heads])
-    rows = [
-        [
-            "frame",
-            "clusters",
-            "mean",
-            "Sauter",
-            "mean by mass",
-            "smallest",
-            "largest",
-            *(f"{c} (%)" for c in CLASS_NAMES),
-        ]
-    ]
-    for i in panels_of(len(sizes), 12):
-        s = sizes[i]
-        means = [f"{1e6 * d:.1f}" for d in (s.mean, s.sauter, s.mass_mean, s.smallest, s.largest)]
-        rows.append([found.heads[i].label, f"{s.count:,}", *means, *(f"{c:.2f}" for c in s.classes)])
+
+    def cells(summary: Summary) -> list[str]:
+        size = summary.moment.sizes
+        means = [f"{1e6 * d:.1f}" for d in (size.mean, size.sauter, size.mass_mean, size.smallest, size.largest)]
+        return [f"{size.count:,}", *means, *(f"{c:.2f}" for c in size.classes)]
+
+    names = ["clusters", "mean", "Sauter", "mean by mass", "smallest", "largest", *(f"{c} (%)" for c in CLASS_NAMES)]
     return (
         "<h2>Sizes</h2>\n"
         + html.picture(
@@ -223,7 +221,7 @@ def _sizes(found: Gathered[Summary], shown: Sequence[Shown], last: Frame) -> str
             draw_histograms(fine_edges(), [s.histogram for s in shown], [s.label for s in shown]),
             "Size distribution by number and by mass in bins of 50 µm; dotted lines: borders of the four classes.",
         )
-        + html.table(rows)
+        + _table_by_frame(found, names, cells)
         + html.paragraph("Diameters in µm; shares in percent of clusters by number.", "note")
         + html.picture(
             draw_scatter(last),
@@ -251,31 +249,14 @@ def _uniformity(found: Gathered[Summary], shown: Sequence[Shown]) -> str:
     times = np.array([head.time for head in found.heads])
     steps = np.array([head.step for head in found.heads])
     values = [value.uniformity for value in found.values]
-    rows = [
-        [
-            "frame",
-            "largest (%)",
-            "smallest (%)",
-            "mean (%)",
-            "deviation (%)",
-            "by chance (%)",
-            "dispersion",
-            "by number",
-            "dense share (%)",
-        ]
-    ]
-    for i in panels_of(len(values), 12):
-        u = values[i]
+
+    def cells(summary: Summary) -> list[str]:
+        u = summary.uniformity
         percent = [f"{100 * v:.4f}" for v in (u.largest, u.smallest, u.mean, u.deviation, u.poisson)]
-        rows.append(
-            [
-                found.heads[i].label,
-                *percent,
-                f"{u.dispersion:.3f}",
-                f"{u.number_dispersion:.3f}",
-                f"{100 * u.dense_share:.2f}",
-            ]
-        )
+        return [*percent, f"{u.dispersion:.3f}", f"{u.number_dispersion:.3f}", f"{100 * u.dense_share:.2f}"]
+
+    names = ["largest (%)", "smallest (%)", "mean (%)", "deviation (%)", "by chance (%)"]
+    names += ["dispersion", "by number", "dense share (%)"]
     last = values[-1]
     side = (
         "more uneven than" if last.dispersion > 1.1 else "more even than" if last.dispersion < 0.9 else "as uneven as"
@@ -299,33 +280,23 @@ def _uniformity(found: Gathered[Summary], shown: Sequence[Shown]) -> str:
             "Cluster–cluster g(r) in the plane with the periodic box (MDAnalysis InterRDF); 1 is chance.",
             "small",
         )
-        + html.table(rows)
+        + _table_by_frame(found, names, cells)
         + html.paragraph("Fractions are true ones; ten times as large on the paper's scale.", "note")
     )
 
 
 def _ledger(run: RunFolder, found: Gathered[Summary]) -> str:
     totals = [value.totals for value in found.values]
-    rows = [
-        [
-            "frame",
-            "clusters",
-            "particles",
-            "mass (kg)",
-            "change of mass",
-            "momentum x (kg m/s)",
-            "momentum z (kg m/s)",
-            "kinetic energy (J)",
-        ]
-    ]
-    for i in panels_of(len(totals), 12):
-        t = totals[i]
+
+    def cells(summary: Summary) -> list[str]:
+        t = summary.totals
         particles = "-" if t.particles is None else f"{t.particles:,}"
         change = f"{t.mass / totals[0].mass - 1:+.1e}"
-        rows.append(
-            [found.heads[i].label, f"{t.clusters:,}", particles, f"{t.mass:.9g}", change]
-            + [f"{value:.5g}" for value in (t.momentum_x, t.momentum_z, t.kinetic)]
-        )
+        motion = [f"{value:.5g}" for value in (t.momentum_x, t.momentum_z, t.kinetic)]
+        return [f"{t.clusters:,}", particles, f"{t.mass:.9g}", change, *motion]
+
+    names = ["clusters", "particles", "mass (kg)", "change of mass"]
+    names += ["momentum x (kg m/s)", "momentum z (kg m/s)", "kinetic energy (J)"]
     said = statements(totals)
     if run.series is not None:
         series = read_series(run.series)
@@ -343,7 +314,7 @@ def _ledger(run: RunFolder, found: Gathered[Summary]) -> str:
                 f"Elastic energy put in by births: {energy:.4g} J ({abs(energy) / kinetic:.1e} of the kinetic energy at the end)."
             )
     note = "Gas and gravity change momentum and kinetic energy; mass and particles must stay."
-    return "<h2>Conservation ledger</h2>\n" + html.bullets(said) + html.table(rows) + html.paragraph(note, "note")
+    return "<h2>Conservation ledger</h2>\n" + html.bullets(said) + _table_by_frame(found, names, cells) + html.paragraph(note, "note")
 
 
 def _engine(log: EngineLog) -> str:
