@@ -9,44 +9,59 @@ from hypothesis import strategies as st
 
 @dataclass(frozen=True)
 class Command:
-    """A command: its fixed words, its required arguments, keywords with values, lines before and after it."""
+    """A command: its first words, required arguments, keywords with values, lines before and after it."""
 
     start: str
     required: str
     keywords: tuple[str, ...]
     before: str = ""
     after: str = ""
-    own_name: str = ""  # how messages at run time begin
 
     def script(self, words: list[str]) -> str:
         return f"{self.before}{' '.join([self.start, *words])}\n{self.after}run 2\n"
 
 
-DRAG = Command(
-    start="fix drag all drag/cluster",
-    own_name="drag/cluster drag",
-    required="1.2 1.53e-5",
-    keywords=(
-        "velocity 0 0 2", "velocity v_u 0 v_w", "profile gas.txt x",
-        "fluctuation 0.75 0 0.75 cell 30 1 30 0.005 12345", "fluctuation 1 0 1 own frozen 5",
-        "fluctuation 1 0 1 own 1e-6 7", "law trancong 0.8 1.1", "law schiller/naumann", "law stokes",
-        "law wen/yu 0.9", "law difelice 0.8", "law none", "plane xz", "unshielded 0.1 particle 1e-4 2000",
-        "unshielded 0", "integrator exponential", "table no",
-    ),
-)
+GAS = "fix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 2\n"
+SIZE = "fix size all cluster/breakmerge 1 1e-4 2000 drag drag K 0.0266\n"
+PAIR = "pair_style gran/cluster 10 0.3 0.33 cutoff 1.5876e-3\n"
+COEFF = "pair_coeff * *\n"
 
-BREAKMERGE = Command(
-    start="fix size all cluster/breakmerge",
-    own_name="cluster/breakmerge size",
-    required="1 1e-4 2000 drag drag K 0.0266",
-    before="fix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 2\n",
-    keywords=(
-        "K emms 0.01", "void 0.5", "limits 3 2000", "umf 6e-3", "umf wen/yu", "epsmf 0.4", "grid 4 1 4",
-        "nst cell grid 4 1 4", "nst cluster", "nsmf paper", "up cell grid 3 1 3", "up superficial grid 2 1 2",
-        "ncc 0.5", "terms st mf", "terms cc", "test contact", "test end", "hysteresis 0.1", "break no", "merge no",
-        "merge 0.2", "refused break", "gravity 9.81 z", "claim 2.5e-3", "plane none", "spacing 2",
+COMMANDS = {
+    "drag": Command(
+        start="fix drag all drag/cluster",
+        required="1.2 1.53e-5",
+        keywords=(
+            "velocity 0 0 2", "velocity v_u 0 v_w", "profile gas.txt x",
+            "fluctuation 0.75 0 0.75 cell 30 1 30 0.005 12345", "fluctuation 1 0 1 own frozen 5",
+            "fluctuation 1 0 1 own 1e-6 7", "law trancong 0.8 1.1", "law schiller/naumann", "law stokes",
+            "law wen/yu 0.9", "law difelice 0.8", "law none", "plane xz", "unshielded 0.1 particle 1e-4 2000",
+            "unshielded 0", "integrator exponential", "table no",
+        ),
     ),
-)
+    "breakmerge": Command(
+        start="fix size all cluster/breakmerge",
+        required="1 1e-4 2000 drag drag K 0.0266",
+        before=GAS,
+        keywords=(
+            "K emms 0.01", "void 0.5", "limits 3 2000", "umf 6e-3", "umf wen/yu", "epsmf 0.4", "grid 4 1 4",
+            "nst cell grid 4 1 4", "nst cluster", "nsmf paper", "up cell grid 3 1 3", "up superficial grid 2 1 2",
+            "ncc 0.5", "terms st mf", "terms cc", "test contact", "test end", "hysteresis 0.1", "break no", "merge no",
+            "merge 0.2", "refused break", "gravity 9.81 z", "claim 2.5e-3", "plane none", "spacing 2",
+        ),
+    ),
+    "pair_style": Command(
+        start="pair_style gran/cluster",
+        required="10 0.3 0.33",
+        keywords=(
+            "tangential md", "tangential linear", "tangential none", "delta_max poisson 0.25", "delta_max kt 8.57",
+            "direction displacement", "direction velocity", "cutoff 1.5876e-3",
+        ),
+        after=COEFF + GAS + SIZE,
+    ),
+    "pair_coeff": Command(
+        start="pair_coeff", required="* *", keywords=("1", "*1", "1*1"), before=PAIR, after=GAS + SIZE
+    ),
+}
 
 NUMBERS = [
     "1e400", "-1e400", "nan", "-nan", "NAN", "inf", "-inf", "infinity", "-0", "0", "-0.0", "0.0", "-1", "+1", "1", "2",

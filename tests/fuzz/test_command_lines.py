@@ -4,13 +4,11 @@ import os
 import re
 
 import pytest
-from command_lines import BREAKMERGE, DRAG, lines
+from command_lines import COMMANDS, lines
 from fork_server import Server
 from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
 from lammps_run import clusters, head, pair
-
-COMMANDS = {"drag": DRAG, "breakmerge": BREAKMERGE}
 
 # `./run fuzz` says how many; a plain test run takes the same few lines each time
 LINES = int(os.environ.get("CLUSTERDEM_FUZZ_LINES", "0"))
@@ -30,6 +28,8 @@ SCENE = (
     + "variable u equal 0.5\nvariable w atom 2+x\nvariable bad equal 1/0\nfix move all nve\ntimestep 1e-6\n"
 )
 
+# an error found when a run begins names who found it, and a cause that is not of one word
+AT_RUN_TIME = ("Fix drag/cluster drag", "Fix cluster/breakmerge size", "Variable ", "Pair style gran/cluster")
 # numbers are taken at their word: what a gas of 1e300 kg/m3 does to the clusters is for LAMMPS to say
 BLOWN_AWAY = ("Lost atoms", "Non-numeric atom coords", "out of range atoms", "Non-numeric box dimensions")
 
@@ -59,6 +59,8 @@ def judge(answer, command):
     """What is wrong with this end; nothing if it ran, or was refused as it should be."""
     if answer.status == 0:
         return None
+    if command.start == "pair_coeff" and "exception: stol" in answer.output:
+        return None  # of LAMMPS' own reading of types, any pair style's: it calls "-" a number
     if answer.status != 1:
         return answer.ending
     output = answer.output.splitlines()
@@ -69,9 +71,10 @@ def judge(answer, command):
         return judge_caret(message, output[output.index(carets[0]) - 1], carets[0], command)
     empty_word = "value:  (must be" in message or message.startswith("Unknown") and "keyword:  (" in message
     names_the_gap = re.match(rf"Illegal {command.start.split()[0]} .* (missing |the keyword|needs? )", message)
-    names_itself = command.own_name in message
-    if empty_word or names_the_gap or names_itself or message.startswith(BLOWN_AWAY):
+    if empty_word or names_the_gap or message.startswith(AT_RUN_TIME + BLOWN_AWAY):
         return None
+    if command.start == "pair_coeff" and re.match("Numeric index|Invalid range|Incorrect args", message):
+        return None  # LAMMPS' own reading of types
     return "refused without naming the word"
 
 
