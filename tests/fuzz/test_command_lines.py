@@ -64,7 +64,9 @@ def judge(answer, command):
     if answer.status != 1:
         return answer.ending
     output = answer.output.splitlines()
-    start = max(k for k, line in enumerate(output) if line.startswith("ERROR"))
+    start = max((k for k, line in enumerate(output) if line.startswith("ERROR")), default=None)
+    if start is None:
+        return "ended with a failure, but without a message of LAMMPS"
     message = output[start].partition(": ")[2]
     carets = [line for line in output[start:] if line.strip() and set(line.strip()) == {"^"}]
     if carets:
