@@ -10,6 +10,7 @@
 
 #include "atom_vec_cluster.h"
 #include "fix_cluster_breakmerge.h"
+#include "fix_cluster_timestep.h"
 #include "fix_drag_cluster.h"
 #include "pair_gran_cluster.h"
 
@@ -59,6 +60,11 @@ extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   plugin.name = "cluster/breakmerge";
   plugin.info = "size, breakup and merging of particle clusters";
   plugin.creator.v2 = (lammpsplugin_factory2 *) &create_fix<FixClusterBreakMerge>;
+  register_style(&plugin, lmp);
+
+  plugin.name = "cluster/timestep";
+  plugin.info = "time step that rejects and halves";
+  plugin.creator.v2 = (lammpsplugin_factory2 *) &create_fix<FixClusterTimestep>;
   register_style(&plugin, lmp);
 
   plugin.style = "pair";

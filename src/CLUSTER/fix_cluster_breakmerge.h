@@ -65,6 +65,9 @@ class FixClusterBreakMerge : public Fix {
 
   const ClusterDEM::ClusterGeometry &cluster_geometry() const { return geometry; }
 
+  // does a check at this step change what later checks decide, even without events?
+  bool remembers(bigint step) const { return test == CONTACT_ENDED && step % nevery == 0; }
+
  private:
   // ---- settings
   ClusterDEM::ClusterGeometry geometry;

@@ -9,6 +9,7 @@
 #include "error.h"
 #include "force.h"
 #include "neigh_list.h"
+#include "model/step_control.h"
 #include "pair_gran_cluster.h"
 #include "update.h"
 #include "utils.h"
@@ -111,6 +112,61 @@ double GranularPairs::power(const Contact &c) const
 {
   if (c.noted) return c.noted_power;
   return dot(contact_force(c), to_vec3(atom->v[c.i]) - to_vec3(atom->v[c.j]));
+}
+
+/* ---------------------------------------------------------------------- */
+
+GranularPairs::Survey GranularPairs::survey(double limit, double near) const
+{
+  double **x = atom->x, **v = atom->v;
+  const double *radius = atom->radius;
+  Survey s;
+  for (const Pair *pair : pairs) {
+    const NeighList *list = pair->list;
+    for (int ii = 0; ii < list->inum; ii++) {
+      const int i = list->ilist[ii];
+      const int *jlist = list->firstneigh[i];
+      for (int jj = 0; jj < list->numneigh[i]; jj++) {
+        const int j = jlist[jj] & NEIGHMASK;
+        const Vec3 d = to_vec3(x[i]) - to_vec3(x[j]);
+        const double rsq = dot(d, d), reach = radius[i] + radius[j] + near;
+        if (rsq > reach * reach) continue;
+        const double r = std::sqrt(rsq);
+        const double overlap = radius[i] + radius[j] - r;
+        const double smaller = 2.0 * MIN(radius[i], radius[j]);
+        if (overlap / smaller > s.my_deepest.value) s.my_deepest = {overlap / smaller, i, j};
+        const double approach = dot(d, to_vec3(v[j]) - to_vec3(v[i]));
+        if (!(approach > 0.0)) continue;
+        const double time = time_to_overlap(overlap, limit * smaller, approach / r);
+        if (time < s.my_soonest.value) s.my_soonest = {time, i, j};
+      }
+    }
+  }
+  const double mine[2] = {s.my_deepest.value, -s.my_soonest.value};
+  double all[2];
+  MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_MAX, world);
+  s.deepest = all[0];
+  s.soonest = -all[1];
+  return s;
+}
+
+/* ---------------------------------------------------------------------- */
+
+GranularPairs::Meeting GranularPairs::meeting(const Survey::Mine &mine, double extreme) const
+{
+  int holder = mine.i >= 0 && mine.value == extreme ? comm->me : comm->nprocs, first;
+  MPI_Allreduce(&holder, &first, 1, MPI_INT, MPI_MIN, world);
+  Meeting m = {};
+  if (first == comm->me) {
+    const int i = mine.i, j = mine.j;
+    const Vec3 d = to_vec3(atom->x[i]) - to_vec3(atom->x[j]);
+    const double r = norm(d), mi = atom->rmass[i], mj = atom->rmass[j];
+    m = {{(double) atom->tag[i], (double) atom->tag[j]}, atom->radius[i] + atom->radius[j] - r,
+         2.0 * MIN(atom->radius[i], atom->radius[j]),
+         r > 0.0 ? dot(d, to_vec3(atom->v[j]) - to_vec3(atom->v[i])) / r : 0.0, mi * mj / (mi + mj)};
+  }
+  if (first < comm->nprocs) MPI_Bcast(&m, sizeof(m), MPI_BYTE, first, world);
+  return m;
 }
 
 /* ----------------------------------------------------------------------

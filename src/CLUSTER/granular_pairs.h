@@ -13,6 +13,7 @@
 
 #include "model/vector3.h"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,23 @@ class GranularPairs : protected Pointers {
 
   // F_ij . (V_i - V_j), at the instant of find_contacts()
   double power(const Contact &) const;
+
+  // How deep pairs overlap, as a share of the smaller diameter, and when the first would reach `limit` at its present
+  // speed of approach; over all ranks. Pairs further apart than `near` are left out.
+  struct Survey {
+    double deepest = -INFINITY, soonest = INFINITY;
+    struct Mine {
+      double value;
+      int i = -1, j = -1;
+    } my_deepest{-INFINITY}, my_soonest{INFINITY};
+  };
+  Survey survey(double limit, double near) const;
+
+  // the pair behind an extreme of a survey, told to all ranks
+  struct Meeting {
+    double tags[2], overlap, smaller, closing, mass;    // smaller diameter, reduced mass
+  };
+  Meeting meeting(const Survey::Mine &, double extreme) const;
 
   // elastic normal force over overlap at this instant, damping left out
   double stiffness(const Contact &) const;

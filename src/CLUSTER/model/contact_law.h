@@ -99,8 +99,9 @@ class ContactLaw {
     return std::exp(-b * angle / w) * (overlap * std::cos(angle) + start / w * std::sin(angle));
   }
 
-  // Stiffness at which the same approach would stop short of `most`; damping is left out, so it does.
-  static double stiffness_for(double m, double c, double most) { return m * c * c / (most * most); }
+  // Stiffness at which the approach that leads to `peak` would lead to `most` instead: overlaps of the linear
+  // spring go with k_n^(-1/2) at the same e.
+  double stiffness_for(double peak, double most) const { return k_n * (peak / most) * (peak / most); }
 
  private:
   double damping_ = 0.0, spring_t_ = 0.0, slip_ratio_ = 0.0;
@@ -134,6 +135,10 @@ class ContactLaw {
     return size > limit ? (limit / size) * force : force;
   }
 };
+
+// Stiffness of a linear spring that stops a pair of reduced mass m, approaching at c, at overlap `most`; without
+// damping, which would help.
+inline double stopping_stiffness(double m, double c, double most) { return m * c * c / (most * most); }
 
 // Tangential displacement carried along with the turning contact: back into the tangent plane of the unit
 // normal, its length kept.

@@ -1,0 +1,664 @@
+/* ----------------------------------------------------------------------
+   Cluster DEM for LAMMPS. Distributed under the GNU General Public License, version 2 or later.
+------------------------------------------------------------------------- */
+
+#include "fix_cluster_timestep.h"
+
+#include "fix_cluster_breakmerge.h"
+#include "pair_gran_cluster.h"
+#include "style_arguments.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "memory.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "output.h"
+#include "update.h"
+#include "write_restart.h"
+
+#include <algorithm>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using namespace ClusterDEM;
+
+static constexpr double PREDICTED_SHARE = 0.9;    // of the time to the overlap limit
+static constexpr int BLOCK = 64;                  // clusters looked at together
+
+/* ---------------------------------------------------------------------- */
+
+FixClusterTimestep::FixClusterTimestep(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), contact_factor(CONTACT_PI / 5.0), stiffness(0.0), stiffness_given(false), overlap_limit(1.0),
+    energy_test(true), tolerance(1.0e-6), kinetic(false), predict(true), floor_given(0.0), pairs(lmp), pair(nullptr),
+    breakmerge(nullptr), motion{}, overlap_bound(INFINITY), test_due(false), repeating(false), moved(0.0),
+    kinetic_before(0.0), recent_error(0.0), saved(-1), elastic_before(0.0), count{}, worst_overlap(-INFINITY),
+    last_error(0.0), worst_error(0.0)
+{
+  time_depend = 1;
+  restart_global = 1;
+  scalar_flag = vector_flag = 1;
+  size_vector = 8;
+  global_freq = 1;
+  extscalar = extvector = 0;
+
+  if (!atom->radius_flag || !atom->rmass_flag)
+    error->all(FLERR, "Fix {} requires atom style sphere or cluster: clusters have a diameter and a mass", style);
+  if (igroup) error->all(FLERR, 1, "Illegal fix {} group: {} (must be all: all clusters take the same step)", style, arg[1]);
+
+  StyleArguments args(lmp, narg, arg, 3);
+  step.most = args.positive("DT_MAX", "time");
+  while (args.more()) {
+    const std::string keyword = args.word("keyword");
+    if (keyword == "contact") {
+      contact_factor = 0.0;
+      if (args.next_is("off")) args.word(keyword);
+      else contact_factor = args.positive(keyword, "off, or a share of sqrt(m/k_n)");
+    } else if (keyword == "stiffness") {
+      stiffness = args.positive(keyword, "force/length");
+      stiffness_given = true;
+    } else if (keyword == "overlap")
+      overlap_limit = args.positive(keyword, "share of the smaller diameter");
+    else if (keyword == "energy") {
+      energy_test = !args.next_is("off");
+      if (energy_test) tolerance = args.positive(keyword, "off, or a share of the energy");
+      else args.word(keyword);
+    } else if (keyword == "test")
+      kinetic = args.choice(keyword, {"balance", "kinetic"}) == 1;
+    else if (keyword == "floor") {
+      floor_given = args.positive(keyword, "time");
+      if (floor_given > step.most) args.refuse(keyword, fmt::format("at most DT_MAX = {}", step.most));
+    } else if (keyword == "retries")
+      step.retries = args.integer(keyword, 1);
+    else if (keyword == "predict")
+      predict = args.yes(keyword);
+    else
+      args.unknown_keyword();
+  }
+  step.start(step.most);
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixClusterTimestep::setmask()
+{
+  return INITIAL_INTEGRATE | POST_INTEGRATE | POST_FORCE | END_OF_STEP;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixClusterTimestep::init()
+{
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Fix {} {} does not support run_style respa: use run_style verlet", style, id);
+  if (modify->get_fix_by_style("^cluster/timestep").size() > 1)
+    error->all(FLERR, "Fix {} {}: only one fix cluster/timestep at a time", style, id);
+  if (!modify->get_fix_by_style("^dt/reset").empty())
+    error->all(FLERR, "Fix {} {}: fix dt/reset changes the same time step", style, id);
+  check_order();
+  find_pair();
+  const auto fixes = modify->get_fix_by_style("^cluster/breakmerge");
+  breakmerge = fixes.empty() ? nullptr : dynamic_cast<FixClusterBreakMerge *>(fixes[0]);
+}
+
+/* ----------------------------------------------------------------------
+   the state is kept before any other fix moves a cluster, and contact forces are told from others by coming first
+------------------------------------------------------------------------- */
+
+void FixClusterTimestep::check_order() const
+{
+  const auto &fixes = modify->get_fix_list();
+  for (std::size_t k = 0; k < fixes.size() && fixes[k] != this; k++)
+    if (modify->fmask[k] & (INITIAL_INTEGRATE | POST_INTEGRATE | POST_FORCE))
+      error->all(FLERR, "Fix {} {} must be defined before fix {} ({}), which moves clusters or adds forces: it must keep "
+                 "the state of each step first", style, id, fixes[k]->id, fixes[k]->style);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixClusterTimestep::find_pair()
+{
+  const std::string me = fmt::format("Fix {} {}", style, id);
+  pairs.find(me, groupbit, 0.0);
+  pair = dynamic_cast<PairGranCluster *>(force->pair_match("gran/cluster", 1));
+  if (pair && !stiffness_given) stiffness = pair->contact_law().k_n;
+  if (!pair && energy_test)
+    error->all(FLERR, "{}: the energy test needs pair style gran/cluster, which knows the energy stored in its springs; "
+               "pair style {} does not: use 'energy off'", me, force->pair_style);
+  if (contact_factor > 0.0 && !(stiffness > 0.0))
+    error->all(FLERR, "{}: the contact bound needs the stiffness k_n of pair style {}: add 'stiffness K_N' "
+               "[force/length], or 'contact off'", me, force->pair_style);
+  if (pair) pair->keep_undo(energy_test);
+}
+
+/* ----------------------------------------------------------------------
+   other fixes have not added their forces yet: f holds those of contacts
+------------------------------------------------------------------------- */
+
+void FixClusterTimestep::setup(int)
+{
+  overlap_bound = INFINITY;    // whoever set up this run may have moved clusters
+  moved = INFINITY;
+  recent_error = 0.0;
+  saved = -1;
+  find_smallest();
+  if (!energy_test) return;
+  collect_pushed();
+  pushed_before.swap(pushed);
+  elastic_before = pair->elastic_energy();
+}
+
+/* ----------------------------------------------------------------------
+   choose the step before anything moves
+------------------------------------------------------------------------- */
+
+void FixClusterTimestep::initial_integrate(int)
+{
+  if (repeating) return;
+  saved = -1;
+  observe();
+  set_step(choose_step());
+  if (test_due) save_positions();
+}
+
+/* ----------------------------------------------------------------------
+   Lowest, highest and largest components of n vectors, four vectors at a time so that the processor takes them
+   together. A value that is not a number is passed over: the kinetic energy shows it.
+------------------------------------------------------------------------- */
+
+static constexpr int LANES = 12;
+
+static void extremes(const double *a, int n, double *lowest, double *highest)
+{
+  double lo[LANES], hi[LANES];
+  std::fill(lo, lo + LANES, INFINITY);
+  std::fill(hi, hi + LANES, -INFINITY);
+  const int size = 3 * n, whole = size - size % LANES;
+  for (int first = 0; first < whole; first += LANES)
+    for (int lane = 0; lane < LANES; lane++) {
+      const double value = a[first + lane];
+      lo[lane] = value < lo[lane] ? value : lo[lane];
+      hi[lane] = value > hi[lane] ? value : hi[lane];
+    }
+  for (int m = whole; m < size; m++) {
+    lo[m - whole] = std::min(lo[m - whole], a[m]);
+    hi[m - whole] = std::max(hi[m - whole], a[m]);
+  }
+  for (int lane = 0; lane < LANES; lane++) {
+    lowest[lane % 3] = std::min(lowest[lane % 3], lo[lane]);
+    highest[lane % 3] = std::max(highest[lane % 3], hi[lane]);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   what bounds the step, on all ranks; the energy test also keeps the state, while each block of clusters is in
+   the cache
+------------------------------------------------------------------------- */
+
+void FixClusterTimestep::observe()
+{
+  const int nlocal = atom->nlocal;
+  double **x = atom->x, **v = atom->v, **f = atom->f;
+  double lowest[3], highest[3], pull[3], push[3], kinetic_sum = 0.0;
+  std::fill(lowest, lowest + 3, INFINITY);
+  std::fill(highest, highest + 3, -INFINITY);
+  std::fill(pull, pull + 3, INFINITY);
+  std::fill(push, push + 3, -INFINITY);
+  if (energy_test) make_room();
+  for (int first = 0; first < nlocal; first += BLOCK) {
+    const int n = MIN(BLOCK, nlocal - first);
+    extremes(v[first], n, lowest, highest);
+    extremes(f[first], n, pull, push);
+    kinetic_sum += twice_kinetic(first, n);
+    if (!energy_test) continue;
+    keep(x_before, x, first, n);
+    keep(v_before, v, first, n);
+    keep(f_before, f, first, n);
+    if (atom->omega_flag) keep(omega_before, atom->omega, first, n);
+    if (atom->torque_flag) keep(torque_before, atom->torque, first, n);
+  }
+  if (energy_test) saved = nlocal;
+  kinetic_before = 0.5 * force->mvv2e * kinetic_sum;
+
+  double mine[8], all[8];
+  for (int k = 0; k < 3; k++) {
+    mine[k] = -lowest[k];
+    mine[3 + k] = highest[k];
+  }
+  mine[6] = 0.0;
+  for (int k = 0; k < 3; k++) mine[6] += std::pow(std::max({0.0, -pull[k], push[k]}), 2);
+  mine[7] = std::isfinite(kinetic_sum) ? 0.0 : 1.0;
+  MPI_Allreduce(mine, all, 8, MPI_DOUBLE, MPI_MAX, world);
+  if (all[7] > 0.0 || !std::isfinite(all[6]))
+    error->all(FLERR, "Fix {} {}: a velocity or force is not finite at step {}", style, id, update->ntimestep - 1);
+
+  motion.closing = motion.speed = motion.acceleration = 0.0;
+  if (atom->natoms == 0) return;
+  for (int k = 0; k < 3; k++) {
+    motion.closing += std::pow(all[k] + all[3 + k], 2);
+    motion.speed += std::pow(std::max(all[k], all[3 + k]), 2);
+  }
+  motion.closing = std::sqrt(motion.closing);
+  motion.speed = std::sqrt(motion.speed);
+  motion.acceleration = force->ftm2v * std::sqrt(all[6]) / motion.lightest;    // at most
+}
+
+double FixClusterTimestep::twice_kinetic(int first, int n) const
+{
+  const double *v = atom->v[first], *rmass = atom->rmass + first;
+  double sum = 0.0;
+  for (int m = 0; m < n; m++)
+    sum += rmass[m] * (v[3 * m] * v[3 * m] + v[3 * m + 1] * v[3 * m + 1] + v[3 * m + 2] * v[3 * m + 2]);
+  return sum;
+}
+
+/* ----------------------------------------------------------------------
+   lightest and smallest cluster: they change with the lists alone
+------------------------------------------------------------------------- */
+
+void FixClusterTimestep::find_smallest()
+{
+  double mine[2] = {-INFINITY, -INFINITY}, all[2];
+  for (int i = 0; i < atom->nlocal; i++) {
+    mine[0] = std::max(mine[0], -atom->rmass[i]);
+    mine[1] = std::max(mine[1], -atom->radius[i]);
+  }
+  MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_MAX, world);
+  motion.lightest = -all[0];
+  motion.smallest = -2.0 * all[1];
+}
+
+/* ----------------------------------------------------------------------
+   the step that the bounds allow. overlap_bound grows by the fastest approach of any two clusters in each step; only
+   when it reaches the limit are the pairs themselves looked at.
+------------------------------------------------------------------------- */
+
+double FixClusterTimestep::choose_step()
+{
+  double ceiling = step.most;
+  if (contact_factor > 0.0) ceiling = std::min(ceiling, contact_step(contact_factor, motion.lightest, stiffness));
+  step.floor = floor_given > 0.0 ? std::min(floor_given, ceiling) : std::ldexp(ceiling, -step.retries);
+  double dt = std::min(step.now(), ceiling);
+  auto closing = [&] { return motion.closing + dt * motion.acceleration; };
+  auto bound_after = [&] { return std::max(0.0, overlap_bound) + closing() * dt / motion.smallest; };
+
+  if (!(bound_after() < overlap_limit)) {
+    const auto now = pairs.survey(overlap_limit, closing() * dt);
+    overlap_bound = now.deepest;
+    worst_overlap = std::max(worst_overlap, now.deepest);
+    const double before_prediction = dt;
+    if (predict) {
+      // no two clusters may pass each other within one step
+      if (closing() > 0.0) dt = std::min(dt, 0.5 * overlap_limit * motion.smallest / closing());
+      dt = std::min(dt, PREDICTED_SHARE * now.soonest);
+      if (dt < 0.25 * before_prediction) {    // two halvings
+        const auto pair_met = pairs.meeting(now.my_soonest, now.soonest);
+        if (pair_met.overlap > 0.0 && too_soft(pair_met)) stop_too_soft(pair_met, false);
+      }
+      if (dt < step.floor) dt = std::min(before_prediction, step.floor);
+    }
+  }
+  test_due = !(bound_after() < overlap_limit);
+  if (energy_test && cannot_be_taken_back()) dt = step.cautious(dt, recent_error);
+  moved += (motion.speed + dt * motion.acceleration) * dt;
+  return dt;
+}
+
+/* ----------------------------------------------------------------------
+   may the coming step rebuild the lists or hold events?
+------------------------------------------------------------------------- */
+
+bool FixClusterTimestep::cannot_be_taken_back() const
+{
+  const bigint now = update->ntimestep;
+  if (breakmerge && now % breakmerge->nevery == 0) return true;
+  if (output->next_restart == now) return true;    // the lists are rebuilt before a restart file
+  for (const auto &fix : modify->get_fix_list())
+    if (fix->force_reneighbor && fix->next_reneighbor == now) return true;
+  return 2.0 * (moved + motion.speed * step.now()) >= neighbor->skin;
+}
+
+/* ----------------------------------------------------------------------
+   did this step's rebuild come with new or other clusters?
+------------------------------------------------------------------------- */
+
+bool FixClusterTimestep::changed_clusters() const
+{
+  for (const auto &fix : modify->get_fix_list())
+    if (fix->force_reneighbor && fix->next_reneighbor == update->ntimestep) return true;
+  return false;
+}
+
+/* ----------------------------------------------------------------------
+   the time that has passed is kept before the step changes
+------------------------------------------------------------------------- */
+
+void FixClusterTimestep::set_step(double dt)
+{
+  if (dt == update->dt) return;
+  const bigint last = update->ntimestep - 1;
+  if (update->atimestep < last) {
+    update->atime += (last - update->atimestep) * update->dt;
+    update->atimestep = last;
+  }
+  update->dt = dt;
+  update->dt_default = 0;
+  if (force->pair) force->pair->reset_dt();
+  for (const auto &fix : modify->get_fix_list()) fix->reset_dt();
+  output->reset_dt();
+}
+
+/* ----------------------------------------------------------------------
+   state at the start of the step
+------------------------------------------------------------------------- */
+
+void FixClusterTimestep::keep(std::vector<double> &kept, double **from, int first, int n)
+{
+  if (n) memcpy(kept.data() + 3 * static_cast<std::size_t>(first), from[first], 3 * sizeof(double) * n);
+}
+
+static void put_back(double **to, const std::vector<double> &kept, int n)
+{
+  if (n) memcpy(to[0], kept.data(), 3 * sizeof(double) * n);
+}
+
+void FixClusterTimestep::make_room()
+{
+  const std::size_t size = 3 * static_cast<std::size_t>(atom->nmax);
+  if (x_before.size() >= size) return;
+  x_before.resize(size);
+  v_before.resize(size);
+  if (atom->omega_flag) omega_before.resize(size);
+  if (!energy_test) return;    // before the forces of the step are computed, those of its start still stand
+  f_before.resize(size);
+  if (atom->torque_flag) torque_before.resize(size);
+}
+
+void FixClusterTimestep::save_positions()
+{
+  if (saved >= 0) return;
+  make_room();
+  saved = atom->nlocal;
+  keep(x_before, atom->x, 0, saved);
+  keep(v_before, atom->v, 0, saved);
+  if (atom->omega_flag) keep(omega_before, atom->omega, 0, saved);
+}
+
+void FixClusterTimestep::restore_positions()
+{
+  put_back(atom->x, x_before, saved);
+  put_back(atom->v, v_before, saved);
+  if (atom->omega_flag) put_back(atom->omega, omega_before, saved);
+}
+
+/* ----------------------------------------------------------------------
+   clusters have drifted: where one would go too deep into another, the drift is undone and done again with
+   half of the step, before lists, events and contact history know of it
+------------------------------------------------------------------------- */
+
+void FixClusterTimestep::post_integrate()
+{
+  const double approach = (motion.closing + update->dt * motion.acceleration) * update->dt / motion.smallest;
+  if (!test_due) {
+    overlap_bound = std::max(0.0, overlap_bound) + approach;
+    return;
+  }
+  for (int halvings = 0;; halvings++) {
+    comm->forward_comm();    // clusters have moved, their ghosts have not
+    const auto after = pairs.survey(overlap_limit, 0.0);
+    const double passing = (motion.closing + update->dt * motion.acceleration) * update->dt / motion.smallest;
+    if (after.deepest < overlap_limit && passing < overlap_limit) {
+      overlap_bound = after.deepest;
+      worst_overlap = std::max(worst_overlap, after.deepest);
+      return;
+    }
+    count[BY_OVERLAP]++;
+    const auto pair_met = pairs.meeting(after.my_deepest, after.deepest);
+    if (halvings >= 2 && after.deepest >= overlap_limit && too_soft(pair_met)) stop_too_soft(pair_met, true);
+    step.taken(update->dt);
+    if (!step.halve()) stop_too_soft(pair_met, true);
+    drift_again();
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixClusterTimestep::drift_again()
+{
+  restore_positions();
+  set_step(step.now());
+  repeating = true;
+  modify->initial_integrate(0);
+  repeating = false;
+}
+
+/* ----------------------------------------------------------------------
+   Of pair gran/cluster the largest overlap of an approach is known in closed form; of another pair style a pair that is
+   deep in contact and comes nearer after two halvings will not be stopped by a third.
+------------------------------------------------------------------------- */
+
+bool FixClusterTimestep::too_soft(const GranularPairs::Meeting &m) const
+{
+  const double most = overlap_limit * m.smaller;
+  if (pair) return pair->contact_law().peak_overlap(m.mass, std::max(0.0, m.overlap), m.closing) >= most;
+  return m.overlap > 0.5 * most && m.closing > 0.0;
+}
+
+/* ----------------------------------------------------------------------
+   the first fix to see the forces: pair forces are in, others are not
+------------------------------------------------------------------------- */
+
+void FixClusterTimestep::post_force(int)
+{
+  if (neighbor->ago == 0) {
+    moved = 0.0;
+    find_smallest();
+    if (changed_clusters()) overlap_bound = INFINITY;
+  }
+  if (energy_test) collect_pushed();
+}
+
+void FixClusterTimestep::collect_pushed()
+{
+  double **f = atom->f, **torque = atom->torque;
+  const bool rotating = atom->torque_flag;
+  const int nlocal = atom->nlocal;
+  pushed.clear();
+  for (int i = 0; i < nlocal; i++)
+    if (f[i][0] != 0.0 || f[i][1] != 0.0 || f[i][2] != 0.0)
+      pushed.push_back({i, to_vec3(f[i]), rotating ? to_vec3(torque[i]) : Vec3{0.0, 0.0, 0.0}});
+}
+
+/* ----------------------------------------------------------------------
+   Exact for velocity Verlet: of the gain dt/4 (F + F')(v + v') of each cluster the part of contact forces.
+------------------------------------------------------------------------- */
+
+double FixClusterTimestep::contact_work() const
+{
+  double **v = atom->v, **omega = atom->omega;
+  const bool rotating = atom->torque_flag;
+  double sum = 0.0;
+  for (const auto *list : {&pushed_before, &pushed})
+    for (const Pushed &p : *list) {
+      sum += dot(p.force, to_vec3(v[p.i]) + to_vec3(&v_before[3 * p.i]));
+      if (rotating) sum += dot(p.torque, to_vec3(omega[p.i]) + to_vec3(&omega_before[3 * p.i]));
+    }
+  return 0.25 * update->dt * sum;
+}
+
+double FixClusterTimestep::kinetic_energy() const
+{
+  return atom->nlocal ? 0.5 * force->mvv2e * twice_kinetic(0, atom->nlocal) : 0.0;
+}
+
+/* ----------------------------------------------------------------------
+   the verdict on the whole step
+------------------------------------------------------------------------- */
+
+void FixClusterTimestep::end_of_step()
+{
+  if (!energy_test) {
+    step.accept(0.0);
+    return;
+  }
+  // where clusters changed places, or a check remembers what it saw, a step is neither tested nor taken back
+  if (neighbor->ago == 0 || (breakmerge && breakmerge->remembers(update->ntimestep))) {
+    count[UNTESTED]++;
+    last_error = 0.0;
+    pushed_before.swap(pushed);
+    elastic_before = pair->elastic_energy();
+    return;
+  }
+
+  const double created = kinetic ? kinetic_energy() - kinetic_before
+                                 : contact_work() + pair->elastic_energy() - elastic_before;
+  const double mine[2] = {created, kinetic ? kinetic_before : kinetic_before + elastic_before};
+  double all[2];
+  MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_SUM, world);
+  const double relative = relative_creation(all[0], all[1]);
+  if (!(relative <= tolerance)) {
+    count[BY_ENERGY]++;
+    step.taken(update->dt);
+    take_back();
+    if (!step.halve()) stop_energy(relative);
+    return;
+  }
+  last_error = relative;
+  worst_error = std::max(worst_error, relative);
+  recent_error = std::max(relative / tolerance, 0.8 * recent_error);
+  step.accept(relative / tolerance);
+  pushed_before.swap(pushed);
+  elastic_before = pair->elastic_energy();
+}
+
+/* ----------------------------------------------------------------------
+   as if the step had not been: its number has passed, its time has not
+------------------------------------------------------------------------- */
+
+void FixClusterTimestep::take_back()
+{
+  restore_positions();
+  put_back(atom->f, f_before, saved);
+  if (atom->torque_flag) put_back(atom->torque, torque_before, saved);
+  pair->undo();
+  comm->forward_comm();
+  overlap_bound = INFINITY;
+  const bigint last = update->ntimestep - 1;
+  update->atime += (last - update->atimestep) * update->dt;
+  update->atimestep = update->ntimestep;
+}
+
+/* ----------------------------------------------------------------------
+   nothing is lost: the last good state goes to a restart file before the error
+------------------------------------------------------------------------- */
+
+void FixClusterTimestep::stop(const std::string &message, bool drifted)
+{
+  if (drifted) restore_positions();
+  const bigint good = update->ntimestep - 1;
+  if (update->atimestep <= good) {
+    update->atime += (good - update->atimestep) * update->dt;
+    update->atimestep = good;
+  }
+  update->ntimestep = good;
+  const std::string file = fmt::format("{}.{}.restart", id, good);
+  domain->pbc();
+  WriteRestart writer(lmp);
+  writer.multiproc_options(0, 0, nullptr);
+  writer.write(file);
+  error->all(FLERR, "Fix {} {}: {} The state of step {} is in {}.", style, id, message, good, file);
+}
+
+void FixClusterTimestep::stop_too_soft(const GranularPairs::Meeting &m, bool drifted)
+{
+  if (m.smaller == 0.0)
+    stop(fmt::format("clusters approach each other at up to {:.4g} and could pass unseen at the smallest step {:.4g}: allow "
+                     "a smaller floor or more retries, or 'predict yes'.", motion.closing, update->dt), drifted);
+  const double most = overlap_limit * m.smaller;
+  const std::string who = fmt::format("clusters {:.0f} and {:.0f} overlap by {:.4g}, {:.3g} of the smaller diameter {:.4g}, "
+                                      "and approach at {:.4g}", m.tags[0], m.tags[1], m.overlap, m.overlap / m.smaller,
+                                      m.smaller, m.closing);
+  if (!too_soft(m))
+    stop(fmt::format("{}, beyond the limit {} at the smallest step {:.4g}: allow a smaller floor or more retries.", who,
+                     overlap_limit, update->dt), drifted);
+  double enough = stopping_stiffness(m.mass, m.closing, most);
+  if (pair) {
+    const auto &law = pair->contact_law();
+    enough = law.stiffness_for(law.peak_overlap(m.mass, std::max(0.0, m.overlap), m.closing), most);
+  }
+  stop(fmt::format("the contact spring is too soft, no smaller step helps: {}; k_n of at least {:.4g} would keep them "
+                   "apart.", who, 1.05 * enough), drifted);
+}
+
+void FixClusterTimestep::stop_energy(double error_now)
+{
+  const std::string what = kinetic
+      ? "the kinetic energy rises (which gravity, gas and springs set free do as well: 'test balance' tells them apart)"
+      : "contacts create energy";
+  stop(fmt::format("{}: {:.3g} of it in one step, above {:.3g}, at the smallest step {:.4g} after {} rejections in a row. "
+                   "Use a larger energy tolerance, a smaller floor or more retries.", what, error_now, tolerance,
+                   update->dt, step.rejections_in_a_row()), false);
+}
+
+/* ---------------------------------------------------------------------- */
+
+static constexpr int NSAVED = 4 + 3;
+
+void FixClusterTimestep::write_restart(FILE *fp)
+{
+  if (comm->me) return;
+  const double list[NSAVED] = {step.now(), worst_overlap, last_error, worst_error,
+                               (double) count[0], (double) count[1], (double) count[2]};
+  const int size = sizeof(list);
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(list, sizeof(double), NSAVED, fp);
+}
+
+void FixClusterTimestep::restart(char *buf)
+{
+  double list[NSAVED];
+  memcpy(list, buf, sizeof(list));
+  step.start(list[0]);
+  worst_overlap = list[1];
+  last_error = list[2];
+  worst_error = list[3];
+  for (int k = 0; k < NCOUNTS; k++) count[k] = static_cast<bigint>(list[4 + k]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixClusterTimestep::compute_scalar()
+{
+  return update->dt;
+}
+
+/* ----------------------------------------------------------------------
+   step, rejections by overlap, by energy, steps untested, overlap now, worst overlap accepted, energy error of the
+   last step, worst accepted
+------------------------------------------------------------------------- */
+
+double FixClusterTimestep::compute_vector(int n)
+{
+  switch (n) {
+    case 0: return update->dt;
+    case 1: case 2: case 3: return static_cast<double>(count[n - 1]);
+    case 4: return std::max(0.0, pairs.survey(overlap_limit, 0.0).deepest);
+    case 5: return std::max(0.0, worst_overlap);
+    case 6: return last_error;
+    default: return worst_error;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixClusterTimestep::memory_usage()
+{
+  double bytes = 0.0;
+  for (const auto *kept : {&x_before, &v_before, &f_before, &omega_before, &torque_before})
+    bytes += (double) kept->capacity() * sizeof(double);
+  return bytes + (double) (pushed.capacity() + pushed_before.capacity()) * sizeof(Pushed);
+}

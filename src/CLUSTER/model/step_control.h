@@ -1,0 +1,83 @@
+// Time step of section "step" of the paper: bounds, the rule that rejects a step, and how the step is halved and
+// grows back.
+
+#ifndef CLUSTERDEM_STEP_CONTROL_H
+#define CLUSTERDEM_STEP_CONTROL_H
+
+#include <algorithm>
+#include <cmath>
+
+namespace ClusterDEM {
+
+// Delta t <= C sqrt(m_i/k_n), C = pi/5 in the paper
+inline double contact_step(double c, double lightest_mass, double k_n) { return c * std::sqrt(lightest_mass / k_n); }
+
+// Time until a pair that approaches at `closing` overlaps by `most`; no bound if it does not approach.
+inline double time_to_overlap(double overlap, double most, double closing)
+{
+  return closing > 0.0 ? std::max(0.0, most - overlap) / closing : INFINITY;
+}
+
+// Energy that contacts created in a step, relative to the energy there was: the work they did plus the change of
+// what their springs hold. Dissipation makes it negative. The paper tests the kinetic energy alone, which cannot hold
+// where gravity, gas or a spring set free speed clusters up.
+inline double relative_creation(double created, double energy)
+{
+  if (!(created > 0.0)) return 0.0;
+  return energy > 0.0 ? created / energy : INFINITY;
+}
+
+class StepSize {
+ public:
+  double most = 0.0;     // Delta t_m
+  double floor = 0.0;    // no smaller step is tried
+  int retries = 10;      // rejections in a row
+
+  double now() const { return dt_; }
+  int rejections_in_a_row() const { return rejected_; }
+  void start(double dt)
+  {
+    dt_ = std::min(dt, most);
+    rejected_ = quiet_ = 0;
+  }
+
+  // other bounds may have made the step shorter than now(): that one is what is halved
+  void taken(double dt) { dt_ = dt; }
+
+  // half of the step, not below the floor; false if there is nothing left to try
+  bool halve()
+  {
+    quiet_ = 0;
+    if (dt_ <= floor || rejected_ >= retries) return false;
+    rejected_++;
+    dt_ = std::max(0.5 * dt_, floor);
+    return true;
+  }
+
+  // After some quiet steps in a row the step is tried twice as long. `error`: share of what would be too much.
+  void accept(double error)
+  {
+    rejected_ = 0;
+    quiet_ = error < QUIET_ERROR ? quiet_ + 1 : 0;
+    if (quiet_ < QUIET_STEPS) return;
+    quiet_ = 0;
+    dt_ = std::min(2.0 * dt_, most);
+  }
+
+  // A step that could not be taken back is taken with less: the error of recent steps, which falls at least like
+  // the step, is brought well below what would be too much.
+  double cautious(double dt, double recent_error) const
+  {
+    return recent_error > QUIET_ERROR ? std::max(floor, dt * QUIET_ERROR / recent_error) : dt;
+  }
+
+ private:
+  static constexpr double QUIET_ERROR = 0.25;    // twice the step makes up to four times the error
+  static constexpr int QUIET_STEPS = 10;
+
+  double dt_ = 0.0;
+  int rejected_ = 0, quiet_ = 0;
+};
+
+}    // namespace ClusterDEM
+#endif
