@@ -128,15 +128,8 @@ void FixClusterBreakMerge::make_room()
   const double *radius = atom->radius;
   const double largest = 0.5 * geometry.diameter(limits.hi);
 
-  // how far to look: a break may use twice the radius that its lattice needs when alone
-  for (Event &e : events) {
-    if (e.plan.is_event()) {
-      const double r = 0.5 * geometry.diameter(e.plan.largest());
-      const double alone = 2.0 * r * spacing * (std::sqrt(0.2757 * e.plan.pieces()) + 1.0) + r;
-      e.reach = MIN(claim_max, 2.0 * alone);
-    } else
-      e.reach = 0.5 * geometry.diameter(e.plan.n);
-  }
+  for (Event &e : events)
+    e.reach = e.plan.is_event() ? reach_of_break(e.plan, geometry, spacing, claim_max) : 0.5 * geometry.diameter(e.plan.n);
 
   Vec3 lo, hi;
   for (int axis = 0; axis < 3; axis++) {

@@ -223,6 +223,36 @@ TEST(PlaceFragments, SevenAndThirteenEqualPiecesFillTheFirstShell)
   }
 }
 
+TEST(ReachOfBreak, ByHand)
+{
+  // 4 pieces: a radius of sqrt(1.1028) + 1 spacings of 2 diameters, a half for the outermost, all of it twice
+  const BreakPlan plan = plan_breakup(400, 100, 3);
+  const double d = paper_geometry.diameter(100);
+  const double alone = 2.0 * (std::sqrt(1.1028) + 1.0) + 0.5;
+  EXPECT_TRUE(relatively_near(reach_of_break(plan, paper_geometry, 2.0, 1.0), 2.0 * alone * d, 16.0 * EPS));
+  EXPECT_EQ(reach_of_break(plan, paper_geometry, 2.0, 3.0 * d), 3.0 * d); // never beyond the claim
+  // the larger piece counts: 202 particles are one piece of 100 and one of 102
+  const BreakPlan folded = plan_breakup(202, 100, 3);
+  const BreakPlan equal = plan_breakup(204, 102, 3);
+  EXPECT_EQ(reach_of_break(folded, paper_geometry, 2.0, 1.0), reach_of_break(equal, paper_geometry, 2.0, 1.0));
+}
+
+TEST(ReachOfBreak, HoldsTheLatticeOfAnyPlan)
+{
+  // the estimate must not fall short of what an undisturbed break takes, or neighbours would go unseen
+  const Lattices lattice(0, 2, 20.0);
+  for (int n = 6; n <= 2000; n += 13)
+    for (int n_l = 3; 2 * n_l <= n; n_l += (n_l < 20 ? 1 : 23)) {
+      const BreakPlan plan = plan_breakup(n, n_l, 3);
+      if (!plan.is_event()) continue;
+      const double reach = reach_of_break(plan, paper_geometry, 2.0, 1.0);
+      const Placement placed =
+          place_fragments(plan, paper_geometry, lattice, Turn(n, 0, 2), 2.0, reach, {}, no_walls);
+      ASSERT_TRUE(placed.found) << n << " " << n_l;
+      ASSERT_LT(placed.reach, 0.75 * reach) << n << " " << n_l; // room left to step aside
+    }
+}
+
 TEST(PlaceFragments, RoomOfTheLargestBreak)
 {
   // 666 threes claim about 4.9 mm in a plane; the rim of the disc is half a step (0.18 mm) to either side

@@ -124,6 +124,16 @@ struct Placement {
   std::vector<Vec3> centres;     // relative to the parent's centre of mass, one per piece
 };
 
+// How far around its parent a break of this plan looks for room, at most to its claim: twice the radius
+// that its lattice takes when alone. A site of the hexagonal lattice has sqrt(3)/2 of a spacing squared to
+// itself, so that n of them fill a disc of radius sqrt(0.2757 n) spacings.
+inline double reach_of_break(const BreakPlan &plan, const ClusterGeometry &geometry, double spacing, double claim)
+{
+  const double r = 0.5 * geometry.diameter(plan.largest());
+  const double alone = 2.0 * r * spacing * (std::sqrt(0.2757 * plan.pieces()) + 1.0) + r;
+  return std::min(claim, 2.0 * alone);
+}
+
 // Takes the nearest free sites in pairs of mirror images, so that the centre of mass stays where it is;
 // a piece of another size sits in the middle, or in the nearest pair. What is left of a shift is taken
 // off the whole set, and every gap is checked again (gap >= 0). `spacing` in diameters of the n_l pieces.
