@@ -61,6 +61,16 @@ COMMANDS = {
     "pair_coeff": Command(
         start="pair_coeff", required="* *", keywords=("1", "*1", "1*1"), before=PAIR, after=GAS + SIZE
     ),
+    "timestep": Command(
+        start="fix step all cluster/timestep",
+        required="1e-6",
+        keywords=(
+            "contact 0.6", "contact off", "stiffness 10", "overlap 0.5", "energy 1e-6", "energy off", "test balance",
+            "test kinetic", "floor 1e-9", "retries 3", "predict no",
+        ),
+        before="unfix move\n" + PAIR + COEFF,
+        after="fix move all nve\n" + GAS + SIZE,
+    ),
 }
 
 NUMBERS = [

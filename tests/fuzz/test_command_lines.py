@@ -29,7 +29,9 @@ SCENE = (
 )
 
 # an error found when a run begins names who found it, and a cause that is not of one word
-AT_RUN_TIME = ("Fix drag/cluster drag", "Fix cluster/breakmerge size", "Variable ", "Pair style gran/cluster")
+AT_RUN_TIME = (
+    "Fix drag/cluster drag", "Fix cluster/breakmerge size", "Fix cluster/timestep step", "Pair style gran/cluster", "Variable ",
+)
 # numbers are taken at their word: what a gas of 1e300 kg/m3 does to the clusters is for LAMMPS to say
 BLOWN_AWAY = ("Lost atoms", "Non-numeric atom coords", "out of range atoms", "Non-numeric box dimensions")
 
