@@ -1,4 +1,4 @@
-"""Closed form of the linear spring-dashpot contact, m x'' + eta x' + k x = m g, x(0) = 0, x'(0) = v.
+"""Closed form of the linear spring-dashpot contact, m x'' + eta x' + k x = m g, x(0) = start, x'(0) = v.
 
 x is the overlap, m the effective mass, g an acceleration that presses the bodies together (0: free pair).
 eta = -2 ln e sqrt(m k) / sqrt(pi^2 + ln^2 e) gives the rebound speed e v for g = 0 (Schaefer, Dippel & Wolf 1996,
@@ -23,7 +23,7 @@ class LinearContact:
     @property
     def eta(self) -> float:
         """Dashpot coefficient [kg/s]."""
-        return float(-2.0 * np.log(self.e) * np.sqrt(self.m * self.k) / np.hypot(np.pi, np.log(self.e)))
+        return -2.0 * np.log(self.e) * np.sqrt(self.m * self.k) / np.hypot(np.pi, np.log(self.e))
 
     @property
     def omega(self) -> float:
@@ -35,16 +35,16 @@ class LinearContact:
         """Contact time at g = 0 [s]."""
         return float(np.pi / self.omega)
 
-    def _constants(self, v: float) -> tuple[float, float, float, float]:
+    def _constants(self, v: float, start: float) -> tuple[float, float, float, float]:
         beta, rest = 0.5 * self.eta / self.m, self.m * self.g / self.k
-        return beta, rest, -rest, (v - beta * rest) / self.omega
+        return beta, rest, start - rest, (v + beta * (start - rest)) / self.omega
 
-    def overlap(self, t, v: float):
-        beta, rest, a, b = self._constants(v)
+    def overlap(self, t, v: float, start: float = 0.0):
+        beta, rest, a, b = self._constants(v, start)
         return rest + np.exp(-beta * t) * (a * np.cos(self.omega * t) + b * np.sin(self.omega * t))
 
-    def speed(self, t, v: float):
-        beta, _, a, b = self._constants(v)
+    def speed(self, t, v: float, start: float = 0.0):
+        beta, _, a, b = self._constants(v, start)
         w = self.omega
         cos, sin = np.cos(w * t), np.sin(w * t)
         return np.exp(-beta * t) * (-beta * (a * cos + b * sin) + w * (b * cos - a * sin))
