@@ -23,7 +23,7 @@ void NewbornTags::assign(std::vector<Birth> &births)
   for (const Birth &b : births) mine += b.newborns;
   MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (all == 0) return;
-  if (highest + all > MAXTAGINT)
+  if (highest + all >= MAXTAGINT)    // the engine takes no atom with the highest number itself
     error->all(FLERR, "Newborn clusters would need the atom ID {}, above the largest of this LAMMPS "
                "build ({}): build with -DLAMMPS_SIZES=bigbig", highest + all, MAXTAGINT);
 
