@@ -224,16 +224,16 @@ void FixClusterTimestep::observe()
   if (energy_test) saved = nlocal;
   kinetic_before = 0.5 * force->mvv2e * kinetic_sum;
 
-  double mine[8], all[8];
+  double mine[10], all[10];
   for (int k = 0; k < 3; k++) {
     mine[k] = -lowest[k];
     mine[3 + k] = highest[k];
+    mine[6 + k] = std::max({0.0, -pull[k], push[k]});
   }
-  mine[6] = 0.0;
-  for (int k = 0; k < 3; k++) mine[6] += std::pow(std::max({0.0, -pull[k], push[k]}), 2);
-  mine[7] = std::isfinite(kinetic_sum) ? 0.0 : 1.0;
-  MPI_Allreduce(mine, all, 8, MPI_DOUBLE, MPI_MAX, world);
-  if (all[7] > 0.0 || !std::isfinite(all[6]))
+  mine[9] = std::isfinite(kinetic_sum) ? 0.0 : 1.0;
+  MPI_Allreduce(mine, all, 10, MPI_DOUBLE, MPI_MAX, world);
+  const double force_sq = all[6] * all[6] + all[7] * all[7] + all[8] * all[8];
+  if (all[9] > 0.0 || !std::isfinite(force_sq))
     error->all(FLERR, "Fix {} {}: a velocity or force is not finite at step {}", style, id, update->ntimestep - 1);
 
   motion.closing = motion.speed = motion.acceleration = 0.0;
@@ -244,7 +244,7 @@ void FixClusterTimestep::observe()
   }
   motion.closing = std::sqrt(motion.closing);
   motion.speed = std::sqrt(motion.speed);
-  motion.acceleration = force->ftm2v * std::sqrt(all[6]) / motion.lightest;    // at most
+  motion.acceleration = force->ftm2v * std::sqrt(force_sq) / motion.lightest;    // at most
 }
 
 double FixClusterTimestep::twice_kinetic(int first, int n) const
@@ -287,6 +287,7 @@ double FixClusterTimestep::choose_step()
   auto bound_after = [&] { return std::max(0.0, overlap_bound) + closing() * dt / motion.smallest; };
 
   if (!(bound_after() < overlap_limit)) {
+    comm->forward_comm();    // ghosts still have the velocities of half a step ago
     const auto now = pairs.survey(overlap_limit, closing() * dt);
     overlap_bound = now.deepest;
     worst_overlap = std::max(worst_overlap, now.deepest);
@@ -296,8 +297,8 @@ double FixClusterTimestep::choose_step()
       if (closing() > 0.0) dt = std::min(dt, 0.5 * overlap_limit * motion.smallest / closing());
       dt = std::min(dt, PREDICTED_SHARE * now.soonest);
       if (dt < 0.25 * before_prediction) {    // two halvings
-        const auto pair_met = pairs.meeting(now.my_soonest, now.soonest);
-        if (pair_met.overlap > 0.0 && too_soft(pair_met)) stop_too_soft(pair_met, false);
+        const auto met = pairs.meeting(now.my_soonest, now.soonest);
+        if (met.overlap > 0.0 && too_soft(met)) stop_too_soft(met, false);
       }
       if (dt < step.floor) dt = std::min(before_prediction, step.floor);
     }
@@ -409,18 +410,19 @@ void FixClusterTimestep::post_integrate()
   }
   for (int halvings = 0;; halvings++) {
     comm->forward_comm();    // clusters have moved, their ghosts have not
-    const auto after = pairs.survey(overlap_limit, 0.0);
-    const double passing = (motion.closing + update->dt * motion.acceleration) * update->dt / motion.smallest;
+    const double way = (motion.closing + update->dt * motion.acceleration) * update->dt;
+    const double passing = way / motion.smallest;
+    const auto after = pairs.survey(overlap_limit, way, update->dt);
     if (after.deepest < overlap_limit && passing < overlap_limit) {
       overlap_bound = after.deepest;
       worst_overlap = std::max(worst_overlap, after.deepest);
       return;
     }
     count[BY_OVERLAP]++;
-    const auto pair_met = pairs.meeting(after.my_deepest, after.deepest);
-    if (halvings >= 2 && after.deepest >= overlap_limit && too_soft(pair_met)) stop_too_soft(pair_met, true);
+    const auto met = pairs.meeting(after.my_deepest, after.deepest);
+    if (halvings >= 2 && after.deepest >= overlap_limit && too_soft(met)) stop_too_soft(met, true);
     step.taken(update->dt);
-    if (!step.halve()) stop_too_soft(pair_met, true);
+    if (!step.halve()) stop_too_soft(met, true);
     drift_again();
   }
 }

@@ -116,7 +116,7 @@ double GranularPairs::power(const Contact &c) const
 
 /* ---------------------------------------------------------------------- */
 
-GranularPairs::Survey GranularPairs::survey(double limit, double near) const
+GranularPairs::Survey GranularPairs::survey(double limit, double near, double drift) const
 {
   double **x = atom->x, **v = atom->v;
   const double *radius = atom->radius;
@@ -129,16 +129,15 @@ GranularPairs::Survey GranularPairs::survey(double limit, double near) const
       for (int jj = 0; jj < list->numneigh[i]; jj++) {
         const int j = jlist[jj] & NEIGHMASK;
         const Vec3 d = to_vec3(x[i]) - to_vec3(x[j]);
-        const double rsq = dot(d, d), reach = radius[i] + radius[j] + near;
-        if (rsq > reach * reach) continue;
-        const double r = std::sqrt(rsq);
-        const double overlap = radius[i] + radius[j] - r;
+        const double touching = radius[i] + radius[j], reach = touching + near;
+        if (dot(d, d) > reach * reach) continue;
+        const Vec3 w = to_vec3(v[i]) - to_vec3(v[j]);
+        const Passage way = passage(d - drift * w, w, drift);
         const double smaller = 2.0 * MIN(radius[i], radius[j]);
-        if (overlap / smaller > s.my_deepest.value) s.my_deepest = {overlap / smaller, i, j};
-        const double approach = dot(d, to_vec3(v[j]) - to_vec3(v[i]));
-        if (!(approach > 0.0)) continue;
-        const double time = time_to_overlap(overlap, limit * smaller, approach / r);
-        if (time < s.my_soonest.value) s.my_soonest = {time, i, j};
+        const double overlap = touching - way.closest;
+        if (overlap / smaller > s.my_deepest.value) s.my_deepest = {overlap / smaller, i, j, overlap, way.closing};
+        const double time = time_to_overlap(overlap, limit * smaller, way.closing);
+        if (time < s.my_soonest.value) s.my_soonest = {time, i, j, overlap, way.closing};
       }
     }
   }
@@ -158,12 +157,9 @@ GranularPairs::Meeting GranularPairs::meeting(const Survey::Mine &mine, double e
   MPI_Allreduce(&holder, &first, 1, MPI_INT, MPI_MIN, world);
   Meeting m = {};
   if (first == comm->me) {
-    const int i = mine.i, j = mine.j;
-    const Vec3 d = to_vec3(atom->x[i]) - to_vec3(atom->x[j]);
-    const double r = norm(d), mi = atom->rmass[i], mj = atom->rmass[j];
-    m = {{(double) atom->tag[i], (double) atom->tag[j]}, atom->radius[i] + atom->radius[j] - r,
-         2.0 * MIN(atom->radius[i], atom->radius[j]),
-         r > 0.0 ? dot(d, to_vec3(atom->v[j]) - to_vec3(atom->v[i])) / r : 0.0, mi * mj / (mi + mj)};
+    const double mi = atom->rmass[mine.i], mj = atom->rmass[mine.j];
+    m = {{(double) atom->tag[mine.i], (double) atom->tag[mine.j]}, mine.overlap,
+         2.0 * MIN(atom->radius[mine.i], atom->radius[mine.j]), mine.closing, mi * mj / (mi + mj)};
   }
   if (first < comm->nprocs) MPI_Bcast(&m, sizeof(m), MPI_BYTE, first, world);
   return m;

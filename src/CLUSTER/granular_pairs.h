@@ -47,21 +47,27 @@ class GranularPairs : protected Pointers {
   // F_ij . (V_i - V_j), at the instant of find_contacts()
   double power(const Contact &) const;
 
+  // Two clusters that meet.
+  struct Meeting {
+    double tags[2];
+    double overlap, smaller;    // smaller: diameter
+    double closing, mass;       // speed of approach, reduced mass
+  };
+
   // How deep pairs overlap, as a share of the smaller diameter, and when the first would reach `limit` at its present
-  // speed of approach; over all ranks. Pairs further apart than `near` are left out.
+  // speed of approach; over all ranks. With drift > 0, over the straight way of that time that led here: two equal
+  // clusters that went through each other overlap no more than before. Pairs further apart than `near` are left out.
   struct Survey {
     double deepest = -INFINITY, soonest = INFINITY;
     struct Mine {
       double value;
       int i = -1, j = -1;
+      double overlap = 0.0, closing = 0.0;
     } my_deepest{-INFINITY}, my_soonest{INFINITY};
   };
-  Survey survey(double limit, double near) const;
+  Survey survey(double limit, double near, double drift = 0.0) const;
 
   // the pair behind an extreme of a survey, told to all ranks
-  struct Meeting {
-    double tags[2], overlap, smaller, closing, mass;    // smaller diameter, reduced mass
-  };
   Meeting meeting(const Survey::Mine &, double extreme) const;
 
   // elastic normal force over overlap at this instant, damping left out

@@ -65,58 +65,59 @@ def test_rejected_drift_is_repeated_as_if_it_had_not_been(tmp_path):
     assert np.abs(a["fx"]).max() > 0
 
 
-def energy_rejection(tmp_path, steps: int = 60):
-    """Oblique elastic impact with friction: forces depend on positions and contact history alone."""
-    control = "4e-6 contact off energy 2e-5 floor 1e-9"
-    r = run(tmp_path / "controlled", scene(two(0.5, 3e-4), gran(1e3), control, steps))
+def energy_rejection(tmp_path):
+    """Oblique elastic impact with friction: forces depend on positions and contact history alone. Rows of the
+    table, and the first rejected step that finds the clusters sliding on each other."""
+    control = "4e-6 contact off energy 1e-5 floor 1e-9"
+    r = run(tmp_path / "controlled", scene(two(0.5, 3e-4), gran(1e3), control, 60))
     rows = r.table()
-    n = next(k for k in range(1, len(rows)) if rows[k, BY_ENERGY] > rows[k - 1, BY_ENERGY])
-    return r, rows, n
+    rejected = np.flatnonzero(np.diff(rows[:, BY_ENERGY]) > 0) + 1
+    pushed = [n for n in rejected if np.abs(r.frames("steps.dump")[n]["tqy"]).max() > 0]
+    return r, rows, rejected, int(pushed[0])
 
 
 def test_energy_rejection_puts_everything_back(tmp_path):
-    r, rows, n = energy_rejection(tmp_path)
+    r, rows, rejected, n = energy_rejection(tmp_path)
     frames = r.frames("steps.dump")
     before, after = frames[n - 1], frames[n]
     assert np.abs(before["fz"]).max() > 0 and np.abs(before["tqy"]).max() > 0 and np.abs(before["omegay"]).max() > 0
     for c in before:
         assert np.array_equal(before[c], after[c]), c
     assert rows[n, TIME] == rows[n - 1, TIME]  # a step number of zero time
-    assert not np.array_equal(frames[n]["x"], frames[n + 1]["x"])
+    following = next(k for k in range(n + 1, len(rows)) if k not in rejected)
+    assert not np.array_equal(after["x"], frames[following]["x"])
 
 
 def test_contact_history_is_put_back_too(tmp_path):
-    """From the rejected step on, the run equals one that went on from there with the halved step."""
-    r, rows, n = energy_rejection(tmp_path)
-    again = next((k for k in range(n + 1, len(rows)) if rows[k, BY_ENERGY] > rows[n, BY_ENERGY]), len(rows)) - 1
-    last = min(again, n + 9)  # the step grows back after ten quiet ones
-    assert last >= n + 5
-    dts = rows[1 : last + 1, DT]
+    """The run equals one that took the accepted steps alone: had a rejected one left anything behind, friction would
+    tell."""
+    r, rows, rejected, n = energy_rejection(tmp_path)
+    frames = r.frames("steps.dump")
+    last = max(k for k in range(n, len(rows)) if np.abs(frames[k]["tqy"]).max() > 0)
+    assert last > n and rows[last, BY_ENERGY] >= 1
     script = scene(two(0.5, 3e-4), gran(1e3), "", 0)
-    for dt, rejected in zip(dts, np.diff(rows[: last + 1, BY_ENERGY]) > 0, strict=True):
-        if not rejected:
-            script += f"timestep {float(dt)!r}\nrun 1 pre no post no\n"
+    for k in range(1, last + 1):
+        if k not in rejected:
+            script += f"timestep {float(rows[k, DT])!r}\nrun 1 pre no post no\n"
     plain = run(tmp_path / "plain", script).frames("steps.dump")[-1]
-    controlled = r.frames("steps.dump")[last]
-    assert np.abs(controlled["tqy"]).max() > 0  # still in contact: friction and its history at work
     for c in plain:
-        assert np.array_equal(plain[c], controlled[c]), c
+        assert np.array_equal(plain[c], frames[last][c]), c
 
 
-def test_energy_stays_within_the_tolerance_of_every_step(tmp_path):
-    """Without control this step creates energy; with it the head-on elastic rebound is as fast as the approach
-    to what the accepted steps add up to."""
-    bodies = two(0.5)
-    loose = run(tmp_path / "loose", scene(bodies, gran(), "6e-5 contact off energy off", 200))
-    tight = run(tmp_path / "tight", scene(bodies, gran(), "6e-5 contact off energy 1e-5 floor 1e-9", 3000))
-    rows = tight.table()
-    assert rows[-1, BY_ENERGY] > 0
-    assert rows[:, ERROR].max() <= 1e-5
-    speed = np.abs(tight.frames("steps.dump")[-1]["vx"])
-    assert speed == pytest.approx([0.5, 0.5], rel=2e-3)
-    assert np.abs(loose.frames("steps.dump")[-1]["vx"]).max() > 0.505 or np.abs(
-        np.abs(loose.frames("steps.dump")[-1]["vx"]).max() - 0.5
-    ) > 10 * np.abs(speed - 0.5).max()
+def test_contacts_create_no_energy(tmp_path):
+    """A head-on elastic rebound with 7 steps in contact: left alone it can come out faster than it went in, depending
+    on where the first step falls; with the test it never does, beyond what the tolerance adds up to."""
+    gained = {"off": [], "1e-5": []}
+    for k, gap in enumerate(np.linspace(1e-5, 9e-5, 8)):
+        for energy, gains in gained.items():
+            control = f"6e-5 contact off energy {energy} floor 1e-9"
+            r = run(tmp_path / f"{energy}{k}", scene(two(0.5, gap=float(gap)), gran(), control, 1500))
+            rows = r.table()
+            gains.append((r.frames("steps.dump")[-1]["vx"][1] / 0.5) ** 2 - 1)
+            if energy != "off":
+                assert rows[:, ERROR].max() <= 1e-5
+                assert gains[-1] <= 1e-5 * np.count_nonzero(rows[:, ERROR])
+    assert max(gained["off"]) > 1e-3
 
 
 def test_step_grows_back_when_quiet(tmp_path):
@@ -216,14 +217,16 @@ def test_with_events_count_mass_and_energy_hold(tmp_path):
 
 @pytest.mark.parametrize("newton", ["on", "off"])
 def test_same_steps_on_any_ranks(tmp_path, newton):
-    """Rejections included. Sums of energies are added in another order; decisions are not that close."""
-    control = "8e-6 contact off energy 3e-5"
-    one = run(tmp_path / "1", busy(800, control=control))
+    """Rejections included. Sums are added in another order and elastic collisions amplify the rounding: 200 steps, times
+    to 1e-9."""
+    control = "1.6e-5 contact off energy 1e-8"
+    one = run(tmp_path / "1", busy(200, gran(), control))
     assert one.table()[-1, BY_ENERGY] > 0
     for ranks in (2, 4):
-        many = run(tmp_path / str(ranks), busy(800, control=control, np_newton=newton), ranks)
-        assert np.array_equal(many.table()[:, [STEP, BY_OVERLAP, BY_ENERGY]], one.table()[:, [STEP, BY_OVERLAP, BY_ENERGY]])
-        assert np.allclose(many.table()[:, TIME], one.table()[:, TIME], rtol=1e-12)
+        many = run(tmp_path / str(ranks), busy(200, gran(), control, newton), ranks)
+        counts = [STEP, BY_OVERLAP, BY_ENERGY, UNTESTED]
+        assert np.array_equal(many.table()[:, counts], one.table()[:, counts])
+        assert np.allclose(many.table()[:, TIME], one.table()[:, TIME], rtol=1e-9)
         a, b = many.dump(), one.dump()
         assert np.array_equal(a["id"], b["id"])
         assert np.allclose(a["x"], b["x"], rtol=1e-9)
@@ -231,9 +234,10 @@ def test_same_steps_on_any_ranks(tmp_path, newton):
 
 def test_a_restart_continues(tmp_path):
     """Bit-equal to the same run cut at that step; totals and the step go on."""
-    control = "8e-6 contact off energy 3e-5"
-    cut = busy(400, control=control).replace("run 400\n", "run 400\nwrite_restart half.restart\nrun 400\n")
+    control = "1.6e-5 contact off energy 1e-6"
+    cut = busy(400, gran(), control).replace("run 400\n", "run 400\nwrite_restart half.restart\nrun 400\n")
     whole = run(tmp_path, cut)
+    assert whole.table()[-1, BY_ENERGY] > 0
     resumed = (
         "atom_modify map hash sort 0 0\ncomm_modify vel yes cutoff 5.7e-3\nread_restart half.restart\nneighbor 0.5e-3 bin\n"
         + fixes(control).replace("out.txt", "resumed.txt") + "run 400\n" + write(name="resumed.dump")

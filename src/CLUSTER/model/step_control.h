@@ -4,6 +4,8 @@
 #ifndef CLUSTERDEM_STEP_CONTROL_H
 #define CLUSTERDEM_STEP_CONTROL_H
 
+#include "vector3.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,6 +18,18 @@ inline double contact_step(double c, double lightest_mass, double k_n) { return 
 inline double time_to_overlap(double overlap, double most, double closing)
 {
   return closing > 0.0 ? std::max(0.0, most - overlap) / closing : INFINITY;
+}
+
+// Straight way of i relative to j, from `from` with velocity w for a time: how near it comes to 0, and how fast it
+// approached when it set out.
+struct Passage {
+  double closest, closing;
+};
+inline Passage passage(const Vec3 &from, const Vec3 &w, double time)
+{
+  const double r = norm(from), toward = -dot(from, w), speed_sq = dot(w, w);
+  const double when = toward > 0.0 ? std::min(time, toward / speed_sq) : 0.0;
+  return {when > 0.0 ? norm(from + when * w) : r, r > 0.0 ? toward / r : 0.0};
 }
 
 // Energy that contacts created in a step, relative to the energy there was: the work they did plus the change of
