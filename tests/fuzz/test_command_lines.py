@@ -77,7 +77,7 @@ def judge(answer, command):
     names_the_gap = re.match(rf"Illegal {command.start.split()[0]} .* (missing |the keyword|needs? )", message)
     if empty_word or names_the_gap or message.startswith(AT_RUN_TIME + BLOWN_AWAY):
         return None
-    if command.start == "pair_coeff" and re.match("Numeric index|Invalid range|Incorrect args", message):
+    if command.start == "pair_coeff" and re.match("Numeric index|Integer .* out of range|Invalid range|Incorrect args", message):
         return None  # LAMMPS' own reading of types
     return "refused without naming the word"
 
