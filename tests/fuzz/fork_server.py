@@ -19,12 +19,9 @@ MEGABYTES = 2048  # of address space; a line that wants more wants it by mistake
 def build_server() -> Path:
     """Compile fork_server.cpp for the LAMMPS of this build; nothing happens when it is current."""
     folder = BUILD / "fuzz"
-    if not (folder / "build.ninja").exists():
-        cache = (BUILD / "CMakeCache.txt").read_text().splitlines()
-        settings = [
-            "-D" + line for line in cache if line.startswith(("LAMMPS_SOURCE_DIR:", "LAMMPS_SIZES:", "CMAKE_CXX_COMPILER:"))
-        ]
-        call("cmake", "-S", str(Path(__file__).parent), "-B", str(folder), "-G", "Ninja", *settings)
+    wanted = ("LAMMPS_SOURCE_DIR:", "LAMMPS_SIZES:", "CMAKE_CXX_COMPILER:")
+    settings = ["-D" + line for line in (BUILD / "CMakeCache.txt").read_text().splitlines() if line.startswith(wanted)]
+    call("cmake", "-S", str(Path(__file__).parent), "-B", str(folder), *settings)
     call("cmake", "--build", str(folder))
     return folder / "fork_server.so"
 
