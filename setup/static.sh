@@ -7,9 +7,9 @@ verb_test_static() { # build src/CLUSTER into LAMMPS as a package (slow), run it
   with_lock "$root/build/static.lock" build_static "$static" "$log"
   local style help
   help=$("$static/lmp" -h)
-  for style in "$root"/src/CLUSTER/fix_*.h; do
-    style=$(sed -nE 's/^ *FixStyle\(([^,]*),.*/\1/p' "$style")
-    [[ -z $style ]] || grep -qw -- "$style" <<<"$help" || die "the static build has no fix $style"
+  for style in "$root"/src/CLUSTER/{fix,pair,atom_vec}_*.h; do
+    style=$(sed -nE 's/^ *(Fix|Pair|Atom)Style\(([^,]*),.*/\2/p' "$style")
+    [[ -z $style ]] || grep -qw -- "$style" <<<"$help" || die "the static build has no style $style"
   done
   say "the static build has every style; now the engine tests with it"
   cd "$root"

@@ -27,8 +27,16 @@ def test_runs(tmp_path, name, particles, reading):
     assert (tmp_path / f"{name}.restart").stat().st_size > 0
 
 
-def test_hertz_contact(tmp_path):
-    assert case(tmp_path, "case1", contact="hertz").dump("case1.00000200.dump")["n"].sum() == 2_000_000
+def test_other_contact_laws(tmp_path):
+    for law in ("hertz", "md"):
+        assert case(tmp_path / law, "case1", contact=law).dump("case1.00000200.dump")["n"].sum() == 2_000_000
+
+
+def test_controlled_step_changes_nothing_where_nothing_is_rejected(tmp_path):
+    """The largest step is the fixed one: the same clusters to the bit."""
+    fixed = case(tmp_path / "fixed", "case1", contact="md").dump("case1.00000200.dump")
+    controlled = case(tmp_path / "controlled", "case1", contact="md", step="controlled").dump("case1.00000200.dump")
+    assert all(np.array_equal(fixed[c], controlled[c]) for c in fixed)
 
 
 def test_same_events_on_two_ranks(tmp_path):
