@@ -15,6 +15,8 @@
 using namespace LAMMPS_NS;
 using namespace ClusterDEM;
 
+static constexpr double MOST_CELLS = 1.0e15;    // they are numbered by 64 bits, and stored nowhere
+
 /* ---------------------------------------------------------------------- */
 
 void FixDragCluster::parse_velocity(StyleArguments &args)
@@ -36,8 +38,11 @@ void FixDragCluster::parse_fluctuation(StyleArguments &args)
     if (a < 0.0) args.refuse("fluctuation amplitude", "a number >= 0 [velocity]");
   }
   fluctuation = args.choice("fluctuation", {"cell", "own"}) == 0 ? PER_CELL : OWN;
-  if (fluctuation == PER_CELL)
-    for (int &n : cells) n = args.integer("fluctuation cell count", 1);
+  if (fluctuation == PER_CELL) {
+    double all = 1.0;
+    for (int &n : cells) all *= n = args.integer("fluctuation cell count", 1);
+    if (all > MOST_CELLS) args.refuse("fluctuation cell count", fmt::format("at most {:.1g} cells in all", MOST_CELLS));
+  }
   if (args.next_is("frozen")) {
     args.word("PERIOD");
     period = 0.0;

@@ -28,6 +28,7 @@ DRAG_ERRORS = [
     (f"{DRAG} fluctuation -1 0 0 own frozen 1", "fluctuation amplitude value: -1 (must be a number >= 0 [velocity])"),
     (f"{DRAG} fluctuation 1 0 1 box frozen 1", "fluctuation value: box (must be cell | own)"),
     (f"{DRAG} fluctuation 1 0 1 cell 0 1 30 frozen 1", "fluctuation cell count value: 0 (must be an integer from 1 to"),
+    (f"{DRAG} fluctuation 1 0 1 cell 1000000 1000000 1000001 frozen 1", "value: 1000001 (must be at most 1e+15 cells in all)"),
     (f"{DRAG} fluctuation 1 0 1 own 0 1", "fluctuation PERIOD value: 0 (must be frozen or a time > 0)"),
     (f"{DRAG} fluctuation 1 0 1 own frozen -5", "fluctuation SEED value: -5 (must be an integer from 1 to"),
     (f"{DRAG} table maybe", "table value: maybe (must be no | yes)"),

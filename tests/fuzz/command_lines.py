@@ -77,13 +77,16 @@ NUMBERS = [
     "1e400", "-1e400", "nan", "-nan", "NAN", "inf", "-inf", "infinity", "-0", "0", "-0.0", "0.0", "-1", "+1", "1", "2",
     "0.5", "1.5", "1e-300", "1e-400", "4.9e-324", "1e15", "1e150", "1e300", "1.7976931348623157e308", "2147483646",
     "2147483647", "2147483648", "-2147483649", "4294967297", "9223372036854775807", "9223372036854775808", "9" * 40,
-    "9" * 400, "0." + "0" * 400 + "1", "0x10", "0x1p3", "010", "1e", "1e+", "e5", "1.5.2", "1,5", "--1", "1_000", "1d0", ".", "-",
+    "9" * 400, "0." + "0" * 400 + "1", "0x10", "0x1p3", "010", "1e", "1e+", "e5", "1.5.2", "1,5", "--1", "1_000", "1d0",
+    ".", "-",
 ]
 WORDS = [
-    '""', '"two words"', "'single'", "Größe", "値", "\N{MINUS SIGN}1", "\N{FULLWIDTH DIGIT ONE}", "1\N{NO-BREAK SPACE}2", "a" * 3000,
-    "{}", "{0}", "{:d}", "%s%n%d", "*", "1*", "v_", "v_none", "v_u", "v_w", "v_bad", "c_none", "f_drag", "NULL", "yes", "no", "off",
-    "/", ".", "gas.txt", "missing.txt", "~", "\\", "|", ";", "emms", "st", "cc", "frozen", "own", "cell", "drag", "move", "all", "(1+2)", "=",
+    '""', '"two words"', "'single'", "Größe", "値", "\N{MINUS SIGN}1", "\N{FULLWIDTH DIGIT ONE}", "1\N{NO-BREAK SPACE}2",
+    "a" * 3000, "{}", "{0}", "{:d}", "%s%n%d", "*", "1*", "v_", "v_none", "v_u", "v_w", "v_bad", "c_none", "f_drag",
+    "NULL", "yes", "no", "off", "/", ".", "gas.txt", "missing.txt", "~", "\\", "|", ";", "emms", "st", "cc", "frozen",
+    "own", "cell", "drag", "move", "all", "(1+2)", "=",
 ]
+FAULTS = ["replace", "replace", "replace", "replace three", "drop", "double", "swap", "insert", "cut"]
 
 
 def lines(command: Command):
@@ -99,9 +102,11 @@ def lines(command: Command):
             if not words:
                 break
             k = draw(st.integers(0, len(words) - 1))
-            fault = draw(st.sampled_from(["replace", "replace", "replace", "drop", "double", "swap", "insert", "cut"]))
+            fault = draw(st.sampled_from(FAULTS))
             if fault == "replace":
                 words[k] = draw(foreign)
+            elif fault == "replace three":
+                words[k : k + 3] = [draw(foreign)] * 3
             elif fault == "drop":
                 del words[k]
             elif fault == "double":

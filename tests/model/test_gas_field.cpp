@@ -107,6 +107,8 @@ TEST(PeriodIndex, ManyPeriods)
 {
   // beyond the range of a 32-bit integer
   EXPECT_EQ(period_index(1.0e10 + 0.5, 1.0), 10000000000);
+  // and of a 64-bit one, up to infinity
+  for (double period : {1.0e-25, 1.0e-300, 4.9e-324}) EXPECT_EQ(period_index(1.0e-6, period), INT64_MAX);
 }
 
 TEST(PeriodIndex, FrozenIsAlwaysZero)

@@ -35,10 +35,12 @@ struct GasProfile {
 // to (k + 1) * period, included, so that what is seen at the end of a period is the state that this
 // period led to; t = 0 belongs to period 0. A time within 1e-6 of a period above an end counts as that
 // end, so that times summed up in steps of dt fall where they should. period <= 0 means frozen: always 0.
+// Periods beyond the range of the numbers count as one.
 inline std::int64_t period_index(double t, double period)
 {
   if (!(period > 0.0)) return 0;
   const double k = std::ceil(t / period - 1.0e-6) - 1.0;
+  if (k >= 0x1p63) return INT64_MAX;
   return k > 0.0 ? static_cast<std::int64_t>(k) : 0;
 }
 
