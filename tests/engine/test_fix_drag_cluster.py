@@ -48,27 +48,6 @@ def test_table_meets_the_law(tmp_path):
     assert not np.array_equal(force("yes"), force("no"))
 
 
-def test_mfix_dem06_terminal_velocity(tmp_path):
-    """MFiX DEM06: one 100 um sphere falls in rising air (Schiller & Naumann); values of MODEL.md section 8.
-
-    The drag is evaluated at half-step velocities, first order in dt: dt/(2 tau) = 1e-5 at dt = 1e-6 s.
-    """
-    script = head() + (
-        "create_atoms 1 single 0.02 0.0015 0.035\nset atom 1 diameter 1e-4\nset atom 1 density 2000\n"
-    ) + pair() + (
-        "fix move all nve\n"
-        f"fix fall all gravity {9.80665 * (1 - 1.2 / 2000)!r} vector 0 0 -1\n"
-        "fix drag all drag/cluster 1.2 1.5e-5 velocity 0 0 0.4 law schiller/naumann\n"
-        "timestep 1e-6\ndump d all custom 10000 path.dump id vz z\ndump_modify d format float %.12g\nrun 350000\n"
-    )
-    frames = run(tmp_path, script).frames("path.dump")
-    expected = {1: -0.01255261, 5: -0.04078891, 10: -0.05263133, 20: -0.05701037, 35: -0.05739251}
-    for k, v in expected.items():
-        assert frames[k]["vz"][0] == pytest.approx(v, rel=2e-5)
-    fallen = frames[0]["z"][0] - frames[35]["z"][0]
-    assert fallen == pytest.approx(0.0925 - 0.07472122, rel=2e-5)
-
-
 @pytest.mark.parametrize("dt_over_tau", [1e-3, 1.0, 30.0, 1e4])
 def test_exponential_integrator_never_overshoots(tmp_path, dt_over_tau):
     """Stokes drag, so tau is constant. With E = exp(-dt/tau), velocity Verlet takes half a kick at set-up,

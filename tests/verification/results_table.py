@@ -45,8 +45,8 @@ def summary(name: str, rows: list[dict]) -> str:
     judged = [row for row in rows if row["tolerance"] is not None]
     nearest = max(judged, key=lambda row: row["error"] / row["tolerance"])
     return (
-        f"{sum(row['passed'] for row in judged)} of {len(judged)} quantities within their tolerance; the one nearest to "
-        f"it: {nearest['quantity']}, error {nearest['error']:.2g} of {limit(nearest)}. "
+        f"{sum(row['passed'] for row in judged)} of {len(judged)} quantities within their tolerance; the one nearest "
+        f"to it: {nearest['quantity']}, error {nearest['error']:.2g} of {limit(nearest)}. "
         f"All of them: [results](../README.md#{name})."
     )
 
@@ -69,18 +69,18 @@ def versions() -> str:
 
 def main(folder: Path) -> None:
     cases = sorted(path.parent.name for path in HERE.glob("*/README.md"))
-    records = {name: [json.loads(text) for text in (folder / f"{name}.jsonl").read_text().splitlines()] for name in cases}
+    records = {name: list(map(json.loads, (folder / f"{name}.jsonl").read_text().splitlines())) for name in cases}
     judged = [row for rows in records.values() for row in rows if row["tolerance"] is not None]
     passed = sum(row["passed"] for row in judged)
     text = [
         "# Verification", "",
-        "Analytic solutions and published data beside what the engine gives, through the stock styles and through",
-        "this plugin's. `./run verify` runs every case, redraws its figure, and writes this file; `./run test` runs the",
-        "same tests in their short form. Each case's folder says what it is, where its reference comes from, and why its",
-        "tolerance is what it is.", "",
+        "Analytic solutions and published data beside what the engine gives, through the stock styles and",
+        "through this plugin's. `./run verify` runs every case, redraws its figure, and writes this file;",
+        "`./run test` runs the same tests in their short form. Each case's folder says what it is, where its",
+        "reference comes from, and why its tolerance is what it is.", "",
         f"{date.today():%d %b %Y}, `./run verify`, {versions()}: {passed} of {len(judged)} quantities pass.", "",
-        "*told*: measured beside a reference of another model or an experiment, not judged. Errors are relative where the",
-        "tolerance says *rel*.", "",
+        "*told*: measured beside a reference of another model or an experiment, not judged. Errors are relative",
+        "where the tolerance says *rel*, and absolute where it says *abs*.", "",
         "| case | | |", "| --- | --- | --- |",
     ]
     for name in cases:

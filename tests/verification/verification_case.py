@@ -10,7 +10,7 @@ from pathlib import Path
 
 import matplotlib
 import numpy as np
-from lammps_run import LMP, Run, run_file
+from lammps_run import Run, run_file
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (after the choice of the backend)
@@ -86,4 +86,3 @@ class VerificationCase:
 # The contact models that a linear spring-dashpot case goes through.
 CONTACTS = ["granular", "gran/cluster"]
 
-__all__ = ["FULL", "LMP", "VerificationCase", "CONTACTS"]

@@ -88,5 +88,6 @@ def test_figure(case, samples):
             axes.semilogy(k[share > 0], share[share > 0], "o", color=color, label=f"{clusters}: engine, no overlaps")
             axes.axvline(PUBLISHED[clusters] / PERCENT, color=color, ls="--", lw=0.8, label="densest cell published")
         axes.axhline(1 / CELLS, color="k", ls=":", lw=0.8)
-        axes.set(xlabel="clusters in a cell", ylabel="share of the cells", ylim=(1e-6, 0.3), title="dotted: one cell of 900")
+        axes.set(xlabel="clusters in a cell", ylabel="share of the cells", ylim=(1e-6, 0.3),
+                 title="dotted: one cell of 900")
         axes.legend(fontsize=7, loc="lower left")
