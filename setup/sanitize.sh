@@ -39,7 +39,8 @@ run_sanitized() {
   count_results "$home/model.xml" "$home/pytest.xml" || verdict=1
   local file
   for file in "$found"/*; do
-    [[ -e $file ]] || break
+    # Open MPI's own daemon, started by a run without mpirun, has findings of its own
+    grep -qs LAMMPS_NS "$file" || continue
     say "finding: $file"
     head -n 25 "$file" >&2
     verdict=1
