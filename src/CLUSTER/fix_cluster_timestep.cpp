@@ -28,21 +28,21 @@ using namespace FixConst;
 using namespace ClusterDEM;
 
 static constexpr double PREDICTED_SHARE = 0.9;    // of the time to the overlap limit
-static constexpr int BLOCK = 64;                  // clusters looked at together
+static constexpr int LOOK_EVERY = 8;              // steps between looks at all velocities
 
 /* ---------------------------------------------------------------------- */
 
 FixClusterTimestep::FixClusterTimestep(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), contact_factor(CONTACT_PI / 5.0), stiffness(0.0), stiffness_given(false), overlap_limit(1.0),
     energy_test(true), tolerance(1.0e-6), kinetic(false), predict(true), floor_given(0.0), pairs(lmp), pair(nullptr),
-    breakmerge(nullptr), motion{}, overlap_bound(INFINITY), test_due(false), repeating(false), moved(0.0),
-    kinetic_before(0.0), recent_error(0.0), saved(-1), elastic_before(0.0), count{}, worst_overlap(-INFINITY),
+    breakmerge(nullptr), motion{}, range(0.0), fastest(0.0), gain(0.0), looks_ago(0), overlap_bound(INFINITY), test_due(false),
+    repeating(false), moved(0.0), kinetic_mine(0.0), energy_all(0.0), restless_all{INFINITY, 0.0}, recent_error(0.0), saved(-1), saved_forces(false), elastic_before(0.0), count{}, worst_overlap(-INFINITY),
     last_error(0.0), worst_error(0.0)
 {
   time_depend = 1;
   restart_global = 1;
   scalar_flag = vector_flag = 1;
-  size_vector = 8;
+  size_vector = 9;
   global_freq = 1;
   extscalar = extvector = 0;
 
@@ -144,6 +144,8 @@ void FixClusterTimestep::setup(int)
   overlap_bound = INFINITY;    // whoever set up this run may have moved clusters
   moved = INFINITY;
   recent_error = 0.0;
+  restless_all = {INFINITY, 0.0};
+  looks_ago = LOOK_EVERY;
   saved = -1;
   find_smallest();
   if (!energy_test) return;
@@ -162,114 +164,150 @@ void FixClusterTimestep::initial_integrate(int)
   saved = -1;
   observe();
   set_step(choose_step());
-  if (test_due) save_positions();
+  if (energy_test) note_start();
+  const bool prepared = energy_test && may_be_rejected();
+  if (test_due || prepared) save(prepared);
 }
 
 /* ----------------------------------------------------------------------
-   Lowest, highest and largest components of n vectors, four vectors at a time so that the processor takes them
-   together. A value that is not a number is passed over: the kinetic energy shows it.
+   Lowest and highest components of n vectors, four vectors at a time so that the processor takes them together.
+   False if one is not finite.
 ------------------------------------------------------------------------- */
 
 static constexpr int LANES = 12;
 
-static void extremes(const double *a, int n, double *lowest, double *highest)
+static bool extremes(double **vectors, int n, double *lowest, double *highest)
 {
-  double lo[LANES], hi[LANES];
+  double lo[LANES], hi[LANES], sum[LANES] = {0.0};
   std::fill(lo, lo + LANES, INFINITY);
   std::fill(hi, hi + LANES, -INFINITY);
+  const double *a = n ? vectors[0] : nullptr;
   const int size = 3 * n, whole = size - size % LANES;
   for (int first = 0; first < whole; first += LANES)
     for (int lane = 0; lane < LANES; lane++) {
       const double value = a[first + lane];
       lo[lane] = value < lo[lane] ? value : lo[lane];
       hi[lane] = value > hi[lane] ? value : hi[lane];
+      sum[lane] += value;
     }
   for (int m = whole; m < size; m++) {
     lo[m - whole] = std::min(lo[m - whole], a[m]);
     hi[m - whole] = std::max(hi[m - whole], a[m]);
+    sum[m - whole] += a[m];
   }
+  bool finite = true;
   for (int lane = 0; lane < LANES; lane++) {
     lowest[lane % 3] = std::min(lowest[lane % 3], lo[lane]);
     highest[lane % 3] = std::max(highest[lane % 3], hi[lane]);
+    finite = finite && std::isfinite(sum[lane]);
   }
+  return finite;
 }
 
 /* ----------------------------------------------------------------------
-   what bounds the step, on all ranks; the energy test also keeps the state, while each block of clusters is in
-   the cache
+   What bounds the step, on all ranks. All velocities are looked at now and then; in between their range grows by no more
+   than the largest force on the lightest cluster times the step.
 ------------------------------------------------------------------------- */
 
 void FixClusterTimestep::observe()
 {
-  const int nlocal = atom->nlocal;
-  double **x = atom->x, **v = atom->v, **f = atom->f;
-  double lowest[3], highest[3], pull[3], push[3], kinetic_sum = 0.0;
+  if (++looks_ago >= LOOK_EVERY || kinetic) {
+    look();
+    return;
+  }
+  double lowest[3], highest[3], mine[4], all[4];
   std::fill(lowest, lowest + 3, INFINITY);
   std::fill(highest, highest + 3, -INFINITY);
-  std::fill(pull, pull + 3, INFINITY);
-  std::fill(push, push + 3, -INFINITY);
-  if (energy_test) make_room();
-  for (int first = 0; first < nlocal; first += BLOCK) {
-    const int n = MIN(BLOCK, nlocal - first);
-    extremes(v[first], n, lowest, highest);
-    extremes(f[first], n, pull, push);
-    kinetic_sum += twice_kinetic(first, n);
-    if (!energy_test) continue;
-    keep(x_before, x, first, n);
-    keep(v_before, v, first, n);
-    keep(f_before, f, first, n);
-    if (atom->omega_flag) keep(omega_before, atom->omega, first, n);
-    if (atom->torque_flag) keep(torque_before, atom->torque, first, n);
-  }
-  if (energy_test) saved = nlocal;
-  kinetic_before = 0.5 * force->mvv2e * kinetic_sum;
+  mine[3] = extremes(atom->f, atom->nlocal, lowest, highest) ? 0.0 : 1.0;
+  for (int k = 0; k < 3; k++) mine[k] = std::max({0.0, -lowest[k], highest[k]});
+  MPI_Allreduce(mine, all, 4, MPI_DOUBLE, MPI_MAX, world);
+  if (all[3] > 0.0) stop_not_finite();
+  const double before = motion.acceleration;
+  motion.acceleration = force->ftm2v * norm({all[0], all[1], all[2]}) / motion.lightest;
+  gain += 0.5 * (before + motion.acceleration) * update->dt;    // of the step before this one
+  motion.closing = range + 2.0 * gain;
+  motion.speed = fastest + gain;
+}
 
-  double mine[10], all[10];
+void FixClusterTimestep::look()
+{
+  const int nlocal = atom->nlocal;
+  double lowest[3], highest[3], mine[8], all[8];
+  std::fill(lowest, lowest + 3, INFINITY);
+  std::fill(highest, highest + 3, -INFINITY);
+  bool finite = extremes(atom->v, nlocal, lowest, highest);
+  double acceleration_sq = 0.0;
+  for (int i = 0; i < nlocal; i++) {
+    const Vec3 f = to_vec3(atom->f[i]);
+    const double a_sq = dot(f, f) / (atom->rmass[i] * atom->rmass[i]);
+    finite = finite && std::isfinite(a_sq);
+    acceleration_sq = std::max(acceleration_sq, a_sq);
+  }
   for (int k = 0; k < 3; k++) {
     mine[k] = -lowest[k];
     mine[3 + k] = highest[k];
-    mine[6 + k] = std::max({0.0, -pull[k], push[k]});
   }
-  mine[9] = std::isfinite(kinetic_sum) ? 0.0 : 1.0;
-  MPI_Allreduce(mine, all, 10, MPI_DOUBLE, MPI_MAX, world);
-  const double force_sq = all[6] * all[6] + all[7] * all[7] + all[8] * all[8];
-  if (all[9] > 0.0 || !std::isfinite(force_sq))
-    error->all(FLERR, "Fix {} {}: a velocity or force is not finite at step {}", style, id, update->ntimestep - 1);
+  mine[6] = acceleration_sq;
+  mine[7] = finite ? 0.0 : 1.0;
+  MPI_Allreduce(mine, all, 8, MPI_DOUBLE, MPI_MAX, world);
+  if (all[7] > 0.0) stop_not_finite();
 
-  motion.closing = motion.speed = motion.acceleration = 0.0;
-  if (atom->natoms == 0) return;
-  for (int k = 0; k < 3; k++) {
-    motion.closing += std::pow(all[k] + all[3 + k], 2);
-    motion.speed += std::pow(std::max(all[k], all[3 + k]), 2);
+  const bool any = atom->natoms > 0;
+  Vec3 width{0.0, 0.0, 0.0}, most = width;
+  for (int k = 0; any && k < 3; k++) {
+    width[k] = all[k] + all[3 + k];
+    most[k] = std::max(all[k], all[3 + k]);
   }
-  motion.closing = std::sqrt(motion.closing);
-  motion.speed = std::sqrt(motion.speed);
-  motion.acceleration = force->ftm2v * std::sqrt(force_sq) / motion.lightest;    // at most
+  motion.closing = range = norm(width);
+  motion.speed = fastest = norm(most);
+  motion.acceleration = force->ftm2v * std::sqrt(all[6]);
+  gain = 0.0;
+  looks_ago = 0;
+  kinetic_mine = kinetic_energy();
 }
 
-double FixClusterTimestep::twice_kinetic(int first, int n) const
+void FixClusterTimestep::stop_not_finite()
 {
-  const double *v = atom->v[first], *rmass = atom->rmass + first;
-  double sum = 0.0;
-  for (int m = 0; m < n; m++)
-    sum += rmass[m] * (v[3 * m] * v[3 * m] + v[3 * m + 1] * v[3 * m + 1] + v[3 * m + 2] * v[3 * m + 2]);
-  return sum;
+  error->all(FLERR, "Fix {} {}: a velocity or force is not finite at step {}", style, id, update->ntimestep - 1);
 }
 
 /* ----------------------------------------------------------------------
-   lightest and smallest cluster: they change with the lists alone
+   could this step create more energy than the tolerance allows? Then its start is kept.
+------------------------------------------------------------------------- */
+
+bool FixClusterTimestep::may_be_rejected() const
+{
+  if (kinetic || recent_error > 0.01) return true;
+  return !(possible_creation(update->dt, restless_all, stiffness, motion.lightest, motion.heaviest, motion.closing) <
+           tolerance * energy_all);
+}
+
+double FixClusterTimestep::kinetic_energy() const
+{
+  const int nlocal = atom->nlocal;
+  const double *v = nlocal ? atom->v[0] : nullptr, *rmass = atom->rmass;
+  double sum = 0.0;
+  for (int i = 0; i < nlocal; i++)
+    sum += rmass[i] * (v[3 * i] * v[3 * i] + v[3 * i + 1] * v[3 * i + 1] + v[3 * i + 2] * v[3 * i + 2]);
+  return 0.5 * force->mvv2e * sum;
+}
+
+/* ----------------------------------------------------------------------
+   lightest, heaviest and smallest cluster: they change with the lists alone
 ------------------------------------------------------------------------- */
 
 void FixClusterTimestep::find_smallest()
 {
-  double mine[2] = {-INFINITY, -INFINITY}, all[2];
+  double mine[3] = {-INFINITY, 0.0, -INFINITY}, all[3];
   for (int i = 0; i < atom->nlocal; i++) {
     mine[0] = std::max(mine[0], -atom->rmass[i]);
-    mine[1] = std::max(mine[1], -atom->radius[i]);
+    mine[1] = std::max(mine[1], atom->rmass[i]);
+    mine[2] = std::max(mine[2], -atom->radius[i]);
   }
-  MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_MAX, world);
+  MPI_Allreduce(mine, all, 3, MPI_DOUBLE, MPI_MAX, world);
   motion.lightest = -all[0];
-  motion.smallest = -2.0 * all[1];
+  motion.heaviest = all[1];
+  motion.smallest = -2.0 * all[2];
 }
 
 /* ----------------------------------------------------------------------
@@ -286,6 +324,7 @@ double FixClusterTimestep::choose_step()
   auto closing = [&] { return motion.closing + dt * motion.acceleration; };
   auto bound_after = [&] { return std::max(0.0, overlap_bound) + closing() * dt / motion.smallest; };
 
+  if (!(bound_after() < overlap_limit) && looks_ago > 0) look();
   if (!(bound_after() < overlap_limit)) {
     comm->forward_comm();    // ghosts still have the velocities of half a step ago
     const auto now = pairs.survey(overlap_limit, closing() * dt);
@@ -354,12 +393,13 @@ void FixClusterTimestep::set_step(double dt)
 }
 
 /* ----------------------------------------------------------------------
-   state at the start of the step
+   state at the start of the step; for the drift alone forces need not be kept
 ------------------------------------------------------------------------- */
 
-void FixClusterTimestep::keep(std::vector<double> &kept, double **from, int first, int n)
+static void keep(std::vector<double> &kept, double **from, int n)
 {
-  if (n) memcpy(kept.data() + 3 * static_cast<std::size_t>(first), from[first], 3 * sizeof(double) * n);
+  if (kept.size() < 3 * static_cast<std::size_t>(n)) kept.resize(3 * static_cast<std::size_t>(n));
+  if (n) memcpy(kept.data(), from[0], 3 * sizeof(double) * n);
 }
 
 static void put_back(double **to, const std::vector<double> &kept, int n)
@@ -367,26 +407,16 @@ static void put_back(double **to, const std::vector<double> &kept, int n)
   if (n) memcpy(to[0], kept.data(), 3 * sizeof(double) * n);
 }
 
-void FixClusterTimestep::make_room()
+void FixClusterTimestep::save(bool forces)
 {
-  const std::size_t size = 3 * static_cast<std::size_t>(atom->nmax);
-  if (x_before.size() >= size) return;
-  x_before.resize(size);
-  v_before.resize(size);
-  if (atom->omega_flag) omega_before.resize(size);
-  if (!energy_test) return;    // before the forces of the step are computed, those of its start still stand
-  f_before.resize(size);
-  if (atom->torque_flag) torque_before.resize(size);
-}
-
-void FixClusterTimestep::save_positions()
-{
-  if (saved >= 0) return;
-  make_room();
   saved = atom->nlocal;
-  keep(x_before, atom->x, 0, saved);
-  keep(v_before, atom->v, 0, saved);
-  if (atom->omega_flag) keep(omega_before, atom->omega, 0, saved);
+  saved_forces = forces;
+  keep(x_before, atom->x, saved);
+  keep(v_before, atom->v, saved);
+  if (atom->omega_flag) keep(omega_before, atom->omega, saved);
+  if (!forces) return;
+  keep(f_before, atom->f, saved);
+  if (atom->torque_flag) keep(torque_before, atom->torque, saved);
 }
 
 void FixClusterTimestep::restore_positions()
@@ -458,6 +488,7 @@ void FixClusterTimestep::post_force(int)
 {
   if (neighbor->ago == 0) {
     moved = 0.0;
+    looks_ago = LOOK_EVERY;
     find_smallest();
     if (changed_clusters()) overlap_bound = INFINITY;
   }
@@ -466,35 +497,48 @@ void FixClusterTimestep::post_force(int)
 
 void FixClusterTimestep::collect_pushed()
 {
-  double **f = atom->f, **torque = atom->torque;
+  double **f = atom->f, **v = atom->v, **torque = atom->torque, **omega = atom->omega;
   const bool rotating = atom->torque_flag;
+  const Vec3 none{0.0, 0.0, 0.0};
   const int nlocal = atom->nlocal;
   pushed.clear();
   for (int i = 0; i < nlocal; i++)
     if (f[i][0] != 0.0 || f[i][1] != 0.0 || f[i][2] != 0.0)
-      pushed.push_back({i, to_vec3(f[i]), rotating ? to_vec3(torque[i]) : Vec3{0.0, 0.0, 0.0}});
+      pushed.push_back({i, to_vec3(f[i]), rotating ? to_vec3(torque[i]) : none, to_vec3(v[i]),
+                        rotating ? to_vec3(omega[i]) : none});
+}
+
+void FixClusterTimestep::note_start()
+{
+  for (Pushed &p : pushed_before) {
+    p.v = to_vec3(atom->v[p.i]);
+    if (atom->torque_flag) p.omega = to_vec3(atom->omega[p.i]);
+  }
 }
 
 /* ----------------------------------------------------------------------
-   Exact for velocity Verlet: of the gain dt/4 (F + F')(v + v') of each cluster the part of contact forces.
+   Exact for velocity Verlet: of the gain dt/4 (F + F')(v + v') of each cluster the part of contact forces. A cluster that
+   was not pushed before has its omega of the start, and half a step of the other forces in its v.
 ------------------------------------------------------------------------- */
 
 double FixClusterTimestep::contact_work() const
 {
-  double **v = atom->v, **omega = atom->omega;
+  double **v = atom->v, **f = atom->f, **omega = atom->omega;
   const bool rotating = atom->torque_flag;
+  const double half = 0.5 * update->dt * force->ftm2v;
   double sum = 0.0;
-  for (const auto *list : {&pushed_before, &pushed})
-    for (const Pushed &p : *list) {
-      sum += dot(p.force, to_vec3(v[p.i]) + to_vec3(&v_before[3 * p.i]));
-      if (rotating) sum += dot(p.torque, to_vec3(omega[p.i]) + to_vec3(&omega_before[3 * p.i]));
-    }
+  auto add = [&](const Pushed &p, const Vec3 &v_start, const Vec3 &omega_start) {
+    sum += dot(p.force, to_vec3(v[p.i]) + v_start);
+    if (rotating) sum += dot(p.torque, to_vec3(omega[p.i]) + omega_start);
+  };
+  for (const Pushed &p : pushed_before) add(p, p.v, p.omega);
+  auto before = pushed_before.begin();
+  for (const Pushed &p : pushed) {
+    while (before != pushed_before.end() && before->i < p.i) ++before;
+    if (before != pushed_before.end() && before->i == p.i) add(p, before->v, before->omega);
+    else add(p, p.v - (half / atom->rmass[p.i]) * (to_vec3(f[p.i]) - p.force), p.omega);
+  }
   return 0.25 * update->dt * sum;
-}
-
-double FixClusterTimestep::kinetic_energy() const
-{
-  return atom->nlocal ? 0.5 * force->mvv2e * twice_kinetic(0, atom->nlocal) : 0.0;
 }
 
 /* ----------------------------------------------------------------------
@@ -511,28 +555,41 @@ void FixClusterTimestep::end_of_step()
   if (neighbor->ago == 0 || (breakmerge && breakmerge->remembers(update->ntimestep))) {
     count[UNTESTED]++;
     last_error = 0.0;
+    const auto &restless = pair->restlessness();
+    double mine[2] = {restless.swing, restless.creep}, all[2];
+    MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_SUM, world);
+    restless_all = {all[0], all[1]};
     pushed_before.swap(pushed);
     elastic_before = pair->elastic_energy();
     return;
   }
 
-  const double created = kinetic ? kinetic_energy() - kinetic_before
+  const double created = kinetic ? kinetic_energy() - kinetic_mine
                                  : contact_work() + pair->elastic_energy() - elastic_before;
-  const double mine[2] = {created, kinetic ? kinetic_before : kinetic_before + elastic_before};
-  double all[2];
-  MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_SUM, world);
+  const double mine[4] = {created, kinetic ? kinetic_mine : kinetic_mine + elastic_before,
+                          pair->restlessness().swing, pair->restlessness().creep};
+  double all[4];
+  MPI_Allreduce(mine, all, 4, MPI_DOUBLE, MPI_SUM, world);
   const double relative = relative_creation(all[0], all[1]);
-  if (!(relative <= tolerance)) {
+  const bool too_much = !(relative <= tolerance);
+  if (too_much && saved_forces && saved >= 0) {
     count[BY_ENERGY]++;
     step.taken(update->dt);
     take_back();
     if (!step.halve()) stop_energy(relative);
     return;
   }
+  if (too_much) {    // nobody expected it, so that the state was not kept
+    count[LET_PASS]++;
+    step.taken(update->dt);
+    step.halve();
+  } else
+    step.accept(relative / tolerance);
+  energy_all = all[1];
+  restless_all = {all[2], all[3]};
   last_error = relative;
   worst_error = std::max(worst_error, relative);
   recent_error = std::max(relative / tolerance, 0.8 * recent_error);
-  step.accept(relative / tolerance);
   pushed_before.swap(pushed);
   elastic_before = pair->elastic_energy();
 }
@@ -549,6 +606,7 @@ void FixClusterTimestep::take_back()
   pair->undo();
   comm->forward_comm();
   overlap_bound = INFINITY;
+  looks_ago = LOOK_EVERY;
   const bigint last = update->ntimestep - 1;
   update->atime += (last - update->atimestep) * update->dt;
   update->atimestep = update->ntimestep;
@@ -608,13 +666,14 @@ void FixClusterTimestep::stop_energy(double error_now)
 
 /* ---------------------------------------------------------------------- */
 
-static constexpr int NSAVED = 4 + 3;
+static constexpr int NSAVED = 4 + 4;
 
 void FixClusterTimestep::write_restart(FILE *fp)
 {
   if (comm->me) return;
   const double list[NSAVED] = {step.now(), worst_overlap, last_error, worst_error,
-                               (double) count[0], (double) count[1], (double) count[2]};
+                               (double) count[0], (double) count[1], (double) count[2],
+                               (double) count[3]};
   const int size = sizeof(list);
   fwrite(&size, sizeof(int), 1, fp);
   fwrite(list, sizeof(double), NSAVED, fp);
@@ -640,7 +699,7 @@ double FixClusterTimestep::compute_scalar()
 
 /* ----------------------------------------------------------------------
    step, rejections by overlap, by energy, steps untested, overlap now, worst overlap accepted, energy error of the
-   last step, worst accepted
+   last step, worst accepted, steps let pass
 ------------------------------------------------------------------------- */
 
 double FixClusterTimestep::compute_vector(int n)
@@ -651,7 +710,8 @@ double FixClusterTimestep::compute_vector(int n)
     case 4: return std::max(0.0, pairs.survey(overlap_limit, 0.0).deepest);
     case 5: return std::max(0.0, worst_overlap);
     case 6: return last_error;
-    default: return worst_error;
+    case 7: return worst_error;
+    default: return static_cast<double>(count[LET_PASS]);
   }
 }
 

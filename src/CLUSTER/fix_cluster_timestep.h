@@ -59,30 +59,37 @@ class FixClusterTimestep : public Fix {
     double closing;          // no two approach each other faster, whatever the step
     double speed;            // none is faster
     double acceleration;     // none is larger
-    double lightest;         // mass
+    double lightest, heaviest;    // mass
     double smallest;         // diameter
   } motion;
+  double range, fastest;     // of velocities, when last looked at; how much that may have grown since:
+  double gain;
+  int looks_ago;
   double overlap_bound;      // no overlap is larger than this times d_i
   bool test_due;             // overlaps are looked at after the drift
   bool repeating;            // the drift of the other fixes is done again
   double moved;              // bound on the way of any cluster since the lists were built
-  double kinetic_before;     // energy of my clusters at the start of the step
+  double kinetic_mine;       // energy of my clusters, when last looked at
+  double energy_all;         // at the end of the last step tested
+  ClusterDEM::Restlessness restless_all;
   double recent_error;       // largest of the last steps, as a share of what would be too much
 
   // ---- state at the start of the step, of my clusters
   std::vector<double> x_before, v_before, f_before, omega_before, torque_before;
   int saved;                 // clusters, -1: not saved
+  bool saved_forces;
 
-  // clusters that contacts push, with their forces: at the start of the step and at its end
+  // clusters that contacts push, in the order of their indices: at the start of the step and at its end. v and omega
+  // as they were at the start of the step, of newcomers before its end.
   struct Pushed {
     int i;
-    ClusterDEM::Vec3 force, torque;
+    ClusterDEM::Vec3 force, torque, v, omega;
   };
   std::vector<Pushed> pushed_before, pushed;
   double elastic_before;
 
   // ---- totals since the fix was defined, the same on all ranks
-  enum { BY_OVERLAP, BY_ENERGY, UNTESTED, NCOUNTS };
+  enum { BY_OVERLAP, BY_ENERGY, UNTESTED, LET_PASS, NCOUNTS };
   bigint count[NCOUNTS];
   double worst_overlap;      // largest that was looked at and accepted
   double last_error, worst_error;
@@ -90,11 +97,11 @@ class FixClusterTimestep : public Fix {
   void check_order() const;
   void find_pair();
   void observe();
-  double twice_kinetic(int first, int n) const;
+  void look();
+  [[noreturn]] void stop_not_finite();
   void find_smallest();
-  void make_room();
-  static void keep(std::vector<double> &kept, double **from, int first, int n);
-  void save_positions();
+  bool may_be_rejected() const;
+  void save(bool forces);
   void restore_positions();
   double choose_step();
   bool cannot_be_taken_back() const;
@@ -103,6 +110,7 @@ class FixClusterTimestep : public Fix {
   void drift_again();
   void collect_pushed();
   double kinetic_energy() const;
+  void note_start();
   double contact_work() const;
   void take_back();
 

@@ -23,7 +23,7 @@ static constexpr int HISTORY = 3;    // tangential displacement
 
 // Two clusters in contact: the normal n points from j to i, forces act on i.
 struct PairGranCluster::Touching {
-  double r, overlap, eta, f_n;
+  double r, overlap, m, eta, f_n;    // m: reduced mass
   Vec3 n, slip;        // slip: tangential velocity of i relative to j where they touch
   Vec3 velocity;       // of i's centre relative to j's
   Vec3 friction{0.0, 0.0, 0.0};
@@ -35,7 +35,7 @@ struct PairGranCluster::Touching {
 
 PairGranCluster::PairGranCluster(LAMMPS *lmp) :
     PairGranHookeHistory(lmp), cutoff_given(0.0), rotating(true), record_step(-1), recorded_step(-1), elastic(0.0),
-    elastic_before(0.0), undoable(false)
+    elastic_before(0.0), restless{}, undoable(false)
 {
 }
 
@@ -129,7 +129,8 @@ template <bool ROTATE> PairGranCluster::Touching PairGranCluster::look_at(int i,
   c.n = (1.0 / c.r) * (to_vec3(atom->x[i]) - to_vec3(atom->x[j]));
   c.velocity = to_vec3(atom->v[i]) - to_vec3(atom->v[j]);
   const double v_n = dot(c.velocity, c.n);
-  c.eta = law.damping(reduced_mass(i, j));
+  c.m = reduced_mass(i, j);
+  c.eta = law.damping(c.m);
   c.f_n = law.normal(c.overlap, c.eta, v_n);
   c.slip = c.velocity - v_n * c.n;
   if (ROTATE) {
@@ -167,6 +168,7 @@ void PairGranCluster::compute(int eflag, int vflag)
   recorded_step = update->ntimestep == record_step ? record_step : -1;
   elastic_before = elastic;
   elastic = 0.0;
+  restless = {};
 
   const bool friction = law.tangential != Tangential::NONE;
   if (rotating && friction) compute_contacts<true, true>();
@@ -227,7 +229,12 @@ template <bool ROTATE, bool FRICTION> void PairGranCluster::compute_contacts()
                    atom->tag[i], atom->tag[j], update->ntimestep, c.r, norm(c.velocity));
 
       const bool both = this->force->newton_pair || j < nlocal;
-      elastic += both ? energy : 0.5 * energy;
+      const double share = both ? 1.0 : 0.5;
+      elastic += share * energy;
+      const double speed_sq = dot(c.velocity, c.velocity);
+      restless.swing += share * law.k_n * (0.5 * speed_sq + energy / c.m);
+      if (FRICTION)
+        restless.creep += share * (energy - law.normal_energy(c.overlap)) * std::sqrt(speed_sq) / c.overlap;
       if (recording) recorded.push_back({i, j, dot(force, c.velocity)});
       add_force<ROTATE>(i, j, c);
       if (evflag)

@@ -14,6 +14,7 @@ PairStyle(gran/cluster,PairGranCluster);
 #include "pair_gran_hooke_history.h"
 
 #include "model/contact_law.h"
+#include "model/step_control.h"
 
 #include <vector>
 
@@ -47,6 +48,9 @@ class PairGranCluster : public PairGranHookeHistory {
   // this rank's share of the energy stored in the springs, as of the last compute()
   double elastic_energy() const { return elastic; }
 
+  // What the energy that a step may create scales with, see possible_creation(): sums over contacts
+  const ClusterDEM::Restlessness &restlessness() const { return restless; }
+
   // A step can be taken back: what compute() changed in the contact history is kept, and put back.
   void keep_undo(bool yes) { undoable = yes; }
   void undo();
@@ -59,6 +63,7 @@ class PairGranCluster : public PairGranHookeHistory {
   bigint record_step, recorded_step;
   std::vector<Contact> recorded;
   double elastic, elastic_before;
+  ClusterDEM::Restlessness restless;
 
   struct Change {
     int *touch;

@@ -41,6 +41,22 @@ inline double relative_creation(double created, double energy)
   return energy > 0.0 ? created / energy : INFINITY;
 }
 
+// What contacts may create in a step, in sums over them. swing: k_n/m_eff times relative kinetic and elastic energy;
+// velocity Verlet creates of the order of (omega dt)^2 of the energy of a contact with frequency omega. creep: tangential
+// energy times speed over overlap; at constant displacement the tangential spring of Eq. (4) stiffens by up to a quarter as
+// the normal load grows.
+struct Restlessness {
+  double swing = 0.0, creep = 0.0;
+};
+
+// Their sum, with a margin, and for ten contacts that begin at approach c: (omega dt)^4/8 of m c^2 each (exact for the
+// linear spring). Where this is too much a step is prepared to be taken back.
+inline double possible_creation(double dt, const Restlessness &now, double k_n, double lightest, double heaviest, double c)
+{
+  const double swing = k_n * dt * dt / (0.5 * lightest);    // (omega dt)^2 at most
+  return 4.0 * (dt * dt * now.swing + 0.25 * dt * now.creep) + 10.0 * 0.125 * swing * swing * 0.5 * heaviest * c * c;
+}
+
 class StepSize {
  public:
   double most = 0.0;     // Delta t_m
