@@ -1,0 +1,18 @@
+"""All families: importing them registers them."""
+
+import families_contact
+import families_events
+import families_gas
+import families_gran_cluster
+import families_step_control
+from family import FAMILIES, SEED
+
+__all__ = [
+    "FAMILIES",
+    "SEED",
+    "families_contact",
+    "families_events",
+    "families_gas",
+    "families_gran_cluster",
+    "families_step_control",
+]
