@@ -9,6 +9,7 @@ verb_verify() { # every verification case in full, its figures, and the table te
   rm -rf "$CLUSTERDEM_VERIFY"
   mkdir "$CLUSTERDEM_VERIFY"
   run_pytest "$CLUSTERDEM_VERIFY/pytest.xml" tests/verification
-  PYTHONPATH=tests/engine "$venv/bin/python" tests/verification/results_table.py "$CLUSTERDEM_VERIFY"
-  count_results "$CLUSTERDEM_VERIFY/pytest.xml"
+  PYTHONPATH=tests/engine "$venv/bin/python" tests/verification/results_table.py "$CLUSTERDEM_VERIFY" ||
+    say "going on to the count of passed and failed tests"
+  count_results "$CLUSTERDEM_VERIFY/pytest.xml" || exit 1
 }
