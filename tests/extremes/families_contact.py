@@ -105,6 +105,31 @@ def too_coarse(draw: Draw, contact: Contact) -> Scene:
 
 
 @family(
+    "stock e = 0",
+    8,
+    2,
+    "two clusters meet with e = 0 in pair granular, whose damping takes the logarithm of e; fix cluster/breakmerge or fix "
+    "drag/cluster beside it",
+    "refused at the contact: the force of that pair style is not a number (pair gran/cluster takes e = 0)",
+    "As in “one point”",
+)
+def stock_zero(draw: Draw) -> Scene:
+    scene = impact_scene(draw, Contact(draw.stiffness(), 1e-3, draw.friction()), 20.0)
+    scene.contact.e = 0.0
+    scene.more, scene.energy = (), None
+    side, x = 8.0 * float(scene.diameter(2000)), scene.clusters.x
+    apart = x[1] - x[0] - scene.box[0] * np.round((x[1] - x[0]) / scene.box[0])
+    scene.clusters.x = np.array([np.full(3, 0.5 * side), 0.5 * side + apart])
+    scene.box, scene.limits = (side, side, side), (3, 2000)
+    if draw.index % 2:
+        scene.gas = "law none"
+    else:
+        scene.size = "K 1 umf 0.001 terms cc mf break no merge no plane none"
+    scene.expect, scene.refusals = REFUSED, ("not a number",)
+    return scene
+
+
+@family(
     "one point",
     24,
     4,
