@@ -16,6 +16,7 @@
 #include "input.h"
 #include "memory.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "update.h"
 #include "variable.h"
 
@@ -36,7 +37,8 @@ FixDragCluster::FixDragCluster(LAMMPS *lmp, int narg, char **arg) :
     cells{1, 1, 1}, period(0.0), seed(0), period_now(0),
     inverse_length{0.0, 0.0, 0.0}, draw(nullptr),
     acts_along{true, true, true}, unshielded(0.0), particle_d(0.0), particle_mass(0.0),
-    particle_given(false), exponential(false), peratom_rows(0), shortest_tau(INFINITY), totals{}, totals_all{}, totals_current(false)
+    particle_given(false), exponential(false), refresh(1), held_dt(0.0), peratom_rows(0),
+    shortest_tau(INFINITY), totals{}, totals_all{}, totals_current(false)
 {
   dynamic_group_allow = 1;
   vector_flag = 1;
@@ -73,6 +75,8 @@ FixDragCluster::FixDragCluster(LAMMPS *lmp, int narg, char **arg) :
       exponential = args.choice(keyword, {"explicit", "exponential"}) == 1;
     else if (keyword == "table")
       table = args.yes(keyword);
+    else if (keyword == "refresh")
+      refresh = args.integer("refresh", 1);
     else
       args.unknown_keyword();
   }
@@ -173,9 +177,7 @@ void FixDragCluster::prepare()
   if (static_cast<int>(cache.size()) < atom->nmax) cache.resize(atom->nmax);
   for (int k = 0; k < 3; k++) inverse_length[k] = 1.0 / domain->prd[k];
 
-  bool any = false;
-  for (const auto &component : velocity) any = any || component.index >= 0;
-  if (!any) return;
+  if (!any_variable()) return;
 
   modify->clearstep_compute();
   for (int k = 0; k < 3; k++) {
@@ -196,6 +198,13 @@ void FixDragCluster::prepare()
     }
   }
   modify->addstep_compute(update->ntimestep + 1);
+}
+
+bool FixDragCluster::any_variable() const
+{
+  for (const auto &component : velocity)
+    if (component.index >= 0) return true;
+  return false;
 }
 
 /* ----------------------------------------------------------------------
@@ -265,20 +274,9 @@ Vec3 FixDragCluster::in_plane(const Vec3 &force) const
 
 void FixDragCluster::post_force(int)
 {
-  const int nlocal = atom->nlocal;
-
-  prepare();
-  if (peratom_rows < atom->nmax) {
-    peratom_rows = atom->nmax;
-    memory->destroy(array_atom);
-    memory->create(array_atom, peratom_rows, COLUMNS, "drag/cluster:array_atom");
-  }
   for (double &t : totals) t = 0.0;
   totals_current = false;
-
-  bool finite = true;
-  shortest_tau = INFINITY;
-  for (int first = 0; first < nlocal; first += BLOCK) finite = add_drag(first, MIN(first + BLOCK, nlocal)) && finite;
+  const bool finite = due() ? add_drag_anew() : add_held_drag();
   if (!finite)
     error->one(FLERR, "Fix {} {}: the drag force is not finite at step {}: check the gas velocity and "
                "the time step", style, id, update->ntimestep);
@@ -286,6 +284,25 @@ void FixDragCluster::post_force(int)
     error->one(FLERR, "Fix {} {}: the time step {} is above twice the relaxation time {} of a cluster at step {}, "
                "where explicit drag grows without bounds: use a shorter time step or 'integrator exponential'",
                style, id, update->dt, shortest_tau, update->ntimestep);
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool FixDragCluster::add_drag_anew()
+{
+  const int nlocal = atom->nlocal;
+  prepare();
+  if (peratom_rows < atom->nmax) {
+    peratom_rows = atom->nmax;
+    memory->destroy(array_atom);
+    memory->create(array_atom, peratom_rows, COLUMNS, "drag/cluster:array_atom");
+  }
+  if (refresh > 1 && static_cast<int>(held.size()) < atom->nmax) held.resize(atom->nmax);
+  held_dt = update->dt;
+  shortest_tau = INFINITY;
+  bool finite = true;
+  for (int first = 0; first < nlocal; first += BLOCK) finite = add_drag(first, MIN(first + BLOCK, nlocal)) && finite;
+  return finite;
 }
 
 /* ----------------------------------------------------------------------
@@ -323,11 +340,14 @@ bool FixDragCluster::add_drag(int first, int last)
     double *row = array_atom[i];
     if (!(mask[i] & groupbit)) {
       memset(row, 0, sizeof(double) * COLUMNS);
+      if (refresh > 1) held[i] = {};
       continue;
     }
     const double tau = b[m] > 0.0 ? rmass[i] / b[m] : INFINITY;
     shortest_tau = MIN(shortest_tau, tau);
-    const Vec3 drag = (exponential ? b[m] * exponential_factor(dt / tau) : b[m]) * slip[m];
+    const double coefficient = exponential ? b[m] * exponential_factor(dt / tau) : b[m];
+    const Vec3 drag = coefficient * slip[m];
+    if (refresh > 1) held[i] = {u[m], in_plane({coefficient, coefficient, coefficient})};
     for (int k = 0; k < 3; k++) {
       f[i][k] += drag[k];
       sum[k] += drag[k];
@@ -340,6 +360,36 @@ bool FixDragCluster::add_drag(int first, int last)
   }
   for (int k = 0; k < 4; k++) totals[k] += sum[k];
   return std::isfinite(sum[0] + sum[1] + sum[2]);
+}
+
+/* ----------------------------------------------------------------------
+   Between two refreshes the gas velocity and the coefficient of each cluster are held; slots of the atom arrays change
+   hands only when the neighbor lists are rebuilt, and then all is computed anew.
+------------------------------------------------------------------------- */
+
+bool FixDragCluster::due() const
+{
+  return refresh == 1 || update->setupflag || neighbor->ago == 0 || update->ntimestep % refresh == 0 ||
+      held_dt != update->dt;
+}
+
+bool FixDragCluster::add_held_drag()
+{
+  if (any_variable()) modify->addstep_compute(update->ntimestep + 1);    // the lists may be rebuilt at any step
+  const int nlocal = atom->nlocal;
+  const double *v = nlocal ? atom->v[0] : nullptr;
+  double *f = nlocal ? atom->f[0] : nullptr;
+  double force[3] = {0.0, 0.0, 0.0}, power = 0.0;
+  for (int i = 0; i < nlocal; i++)
+    for (int k = 0; k < 3; k++) {
+      const double drag = held[i].b[k] * (held[i].u[k] - v[3 * i + k]);
+      f[3 * i + k] += drag;
+      force[k] += drag;
+      power += drag * v[3 * i + k];
+    }
+  for (int k = 0; k < 3; k++) totals[k] = force[k];
+  totals[3] = power;
+  return std::isfinite(force[0] + force[1] + force[2]);
 }
 
 /* ---------------------------------------------------------------------- */

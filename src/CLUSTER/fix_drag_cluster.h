@@ -93,6 +93,15 @@ class FixDragCluster : public Fix {
   bool particle_given;
   bool exponential;
 
+  // gas velocity and coefficient are held for so many steps; 0 along axes that the drag does not act on
+  int refresh;
+  struct Held {
+    ClusterDEM::Vec3 u, b;
+  };
+  std::vector<Held> held;
+  double held_dt;                      // step that the coefficients are made for
+
+
   int peratom_rows;                    // rows that array_atom has room for
   double shortest_tau;                 // relaxation time on this rank, this step
   double totals[4], totals_all[4];    // force and power on my clusters, on all
@@ -105,7 +114,11 @@ class FixDragCluster : public Fix {
   void parse_profile(StyleArguments &);
   void find_primary_particle();
   ClusterDEM::Vec3 fluctuation_of(int i);
+  bool any_variable() const;
+  bool due() const;
+  bool add_drag_anew();
   bool add_drag(int first, int last);
+  bool add_held_drag();
 };
 
 }    // namespace LAMMPS_NS

@@ -173,6 +173,38 @@ def test_seed_changes_all(tmp_path):
     assert np.all(a != b)
 
 
+def refreshed(m: int, steps: int = 400, gusts: str = "cell 4 1 4 1e-4 3") -> str:
+    return fluctuating(f"{gusts} refresh {m}", steps)
+
+
+def test_refresh_of_one_step_changes_nothing(tmp_path):
+    each = run(tmp_path / "each", refreshed(1)).dump()
+    default = run(tmp_path / "default", refreshed(1).replace(" refresh 1", "")).dump()
+    assert all(np.array_equal(each[c], default[c]) for c in each)
+
+
+def test_held_coefficients_follow_the_velocity(tmp_path):
+    """Where the gas changes four times in 400 steps, the change comes up to 9 steps late; where it does not, the error is
+    that of the coefficient alone, of the first order in the time for which it is held."""
+    error = {}
+    for gas, gusts in (("gusty", "cell 4 1 4 1e-4 3"), ("steady", "cell 1 1 1 frozen 3")):
+        exact = run(tmp_path / gas / "1", refreshed(1, gusts=gusts)).dump()
+        change = np.hypot(exact["vx"], exact["vz"]).max()
+        for m in (5, 10):
+            held = run(tmp_path / gas / str(m), refreshed(m, gusts=gusts)).dump()
+            error[gas, m] = np.hypot(held["vx"] - exact["vx"], held["vz"] - exact["vz"]).max() / change
+    assert 0 < error["gusty", 10] < 4 * 9 / 400
+    assert 0 < error["steady", 10] < 1e-4
+    assert error["steady", 5] < 0.6 * error["steady", 10]
+
+
+def test_refresh_does_not_depend_on_ranks(tmp_path):
+    one = run(tmp_path / "1", refreshed(10)).dump()
+    many = run(tmp_path / "2", refreshed(10), 2).dump()
+    for c in ("x", "z", "vx", "vz"):
+        assert np.allclose(one[c], many[c], rtol=1e-12, atol=1e-15)
+
+
 @pytest.mark.parametrize("text", ["own 3e-5 7", "cell 10 1 10 3e-5 7"])
 def test_restart_continues_bit_equal(tmp_path, text):
     setup = head() + random_clusters(200) + pair()
