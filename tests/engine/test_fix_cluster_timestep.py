@@ -65,11 +65,15 @@ def test_rejected_drift_is_repeated_as_if_it_had_not_been(tmp_path):
     assert np.abs(a["fx"]).max() > 0
 
 
-def energy_rejection(tmp_path):
-    """Oblique elastic impact with friction: forces depend on positions and contact history alone. Rows of the
-    table, and the first rejected step that finds the clusters sliding on each other."""
+OBLIQUE = two(0.5, 3e-4)
+GUSTS = "fix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 2 fluctuation 3 0 3 cell 8 1 8 5e-6 5\n"
+
+
+def energy_rejection(tmp_path, more: str = ""):
+    """Oblique elastic impact with friction. Rows of the table, the rejected steps, and the first of them that finds the
+    clusters sliding on each other."""
     control = "4e-6 contact off energy 1e-5 floor 1e-9"
-    r = run(tmp_path / "controlled", scene(two(0.5, 3e-4), gran(1e3), control, 60))
+    r = run(tmp_path / "controlled", scene(OBLIQUE, gran(1e3), control, 60, more=more))
     rows = r.table()
     rejected = np.flatnonzero(np.diff(rows[:, BY_ENERGY]) > 0) + 1
     pushed = [n for n in rejected if np.abs(r.frames("steps.dump")[n]["tqy"]).max() > 0]
@@ -88,14 +92,15 @@ def test_energy_rejection_puts_everything_back(tmp_path):
     assert not np.array_equal(after["x"], frames[following]["x"])
 
 
-def test_contact_history_is_put_back_too(tmp_path):
-    """The run equals one that took the accepted steps alone: had a rejected one left anything behind, friction would
-    tell."""
-    r, rows, rejected, n = energy_rejection(tmp_path)
+@pytest.mark.parametrize("more", ["", GUSTS], ids=["alone", "in gusts"])
+def test_history_and_gusts_are_put_back_too(tmp_path, more):
+    """The run equals, to the bit, one that took the accepted steps alone: had a rejected one left anything behind in the
+    contact history or in the gas, which is drawn anew every 5 us, friction or drag would tell."""
+    r, rows, rejected, n = energy_rejection(tmp_path, more)
     frames = r.frames("steps.dump")
     last = max(k for k in range(n, len(rows)) if np.abs(frames[k]["tqy"]).max() > 0)
     assert last > n and rows[last, BY_ENERGY] >= 1
-    script = scene(two(0.5, 3e-4), gran(1e3), "", 0)
+    script = scene(OBLIQUE, gran(1e3), "", 0, more=more)
     for k in range(1, last + 1):
         if k not in rejected:
             script += f"timestep {float(rows[k, DT])!r}\nrun 1 pre no post no\n"
