@@ -65,6 +65,7 @@ class FixClusterTimestep : public Fix {
   double range, fastest;     // of velocities, when last looked at; how much that may have grown since:
   double gain;
   int looks_ago;
+  bool look_due;             // clusters changed, or moved by other than forces
   double overlap_bound;      // no overlap is larger than this times d_i
   bool test_due;             // overlaps are looked at after the drift
   bool repeating;            // the drift of the other fixes is done again
