@@ -66,9 +66,11 @@ inline StableSize stable_size(double k, double e_in, const ClusterGeometry &geom
   if (!(e_in > 0.0)) return {geometry.diameter(limits.hi), limits.hi};
   const double l = k / e_in;
   // a diameter that was made from a whole n gives that n back, not n - 1
-  const int n = limits.clamp(geometry.particles_in(l) * (1.0 + 1.0e-12));
-  const double lo = geometry.diameter(limits.lo), hi = geometry.diameter(limits.hi);
-  return {l > lo ? std::min(l, hi) : lo, n};
+  const double particles = geometry.particles_in(l) * (1.0 + 1.0e-12);
+  const int n = limits.clamp(particles);
+  // cube roots only where a limit is met
+  if (!(particles > limits.lo)) return {geometry.diameter(limits.lo), n};
+  return {particles < limits.hi ? l : std::min(l, geometry.diameter(limits.hi)), n};
 }
 
 }    // namespace ClusterDEM
