@@ -347,7 +347,7 @@ bool FixDragCluster::add_drag(int first, int last)
     shortest_tau = MIN(shortest_tau, tau);
     const double coefficient = exponential ? b[m] * exponential_factor(dt / tau) : b[m];
     const Vec3 drag = coefficient * slip[m];
-    if (refresh > 1) held[i] = {u[m], in_plane({coefficient, coefficient, coefficient})};
+    if (refresh > 1) held[i] = {u[m], coefficient};
     for (int k = 0; k < 3; k++) {
       f[i][k] += drag[k];
       sum[k] += drag[k];
@@ -380,9 +380,10 @@ bool FixDragCluster::add_held_drag()
   const double *v = nlocal ? atom->v[0] : nullptr;
   double *f = nlocal ? atom->f[0] : nullptr;
   double force[3] = {0.0, 0.0, 0.0}, power = 0.0;
+  const Vec3 along = in_plane({1.0, 1.0, 1.0});
   for (int i = 0; i < nlocal; i++)
     for (int k = 0; k < 3; k++) {
-      const double drag = held[i].b[k] * (held[i].u[k] - v[3 * i + k]);
+      const double drag = along[k] * held[i].b * (held[i].u[k] - v[3 * i + k]);
       f[3 * i + k] += drag;
       force[k] += drag;
       power += drag * v[3 * i + k];

@@ -93,10 +93,11 @@ class FixDragCluster : public Fix {
   bool particle_given;
   bool exponential;
 
-  // gas velocity and coefficient are held for so many steps; 0 along axes that the drag does not act on
+  // gas velocity and coefficient are held for so many steps
   int refresh;
   struct Held {
-    ClusterDEM::Vec3 u, b;
+    ClusterDEM::Vec3 u;
+    double b;
   };
   std::vector<Held> held;
   double held_dt;                      // step that the coefficients are made for
