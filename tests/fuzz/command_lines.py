@@ -35,7 +35,7 @@ COMMANDS = {
             "fluctuation 0.75 0 0.75 cell 30 1 30 0.005 12345", "fluctuation 1 0 1 own frozen 5",
             "fluctuation 1 0 1 own 1e-6 7", "law trancong 0.8 1.1", "law schiller/naumann", "law stokes",
             "law wen/yu 0.9", "law difelice 0.8", "law none", "plane xz", "unshielded 0.1 particle 1e-4 2000",
-            "unshielded 0", "integrator exponential", "table no",
+            "unshielded 0", "integrator exponential", "table no", "refresh 2",
         ),
     ),
     "breakmerge": Command(
