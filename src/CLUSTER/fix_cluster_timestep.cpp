@@ -55,7 +55,7 @@ FixClusterTimestep::FixClusterTimestep(LAMMPS *lmp, int narg, char **arg) :
       stiffness = args.positive(keyword, "force/length");
       stiffness_given = true;
     } else if (keyword == "overlap")
-      overlap_limit = args.positive(keyword, "share of the smaller diameter");
+      overlap_limit = args.within(keyword, 1.0e-6, 1.0e6);
     else if (keyword == "energy") {
       energy_test = !args.next_is("off");
       if (energy_test) tolerance = args.positive(keyword, "off, or a share of the energy");

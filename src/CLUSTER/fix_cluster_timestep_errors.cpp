@@ -44,6 +44,12 @@ void FixClusterTimestep::stop(const std::string &message, bool drifted)
     update->atimestep = good;
   }
   update->ntimestep = good;
+  const bigint mine = atom->nlocal;
+  bigint all = 0;
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (all != atom->natoms)
+    error->all(FLERR, "Fix {} {}: {} The state is not written: {} of {} clusters were lost before.", style, id, message,
+               atom->natoms - all, atom->natoms);
   const std::string file = fmt::format("{}.{}.restart", id, good);
   domain->pbc();
   WriteRestart writer(lmp);

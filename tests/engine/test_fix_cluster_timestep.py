@@ -260,7 +260,7 @@ def test_a_restart_continues(tmp_path):
         (pair(), "1e-6", ["energy test needs pair style gran/cluster", "energy off"]),
         (pair(), "1e-6 energy off", ["stiffness k_n", "stiffness K_N", "contact off"]),
         (gran(), "0", ["DT_MAX value: 0", "> 0"]),
-        (gran(), "1e-6 overlap -1", ["overlap value: -1", "> 0"]),
+        (gran(), "1e-6 overlap -1", ["overlap value: -1", "from 1e-06 to"]),
         (gran(), "1e-6 floor 1e-5", ["floor value: 1e-5", "at most DT_MAX"]),
         (gran(), "1e-6 retries 0", ["retries value: 0", "integer from 1"]),
         (gran(), "1e-6 test energy", ["test value: energy", "balance | kinetic"]),
