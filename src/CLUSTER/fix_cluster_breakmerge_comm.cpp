@@ -229,9 +229,12 @@ int FixClusterBreakMerge::size_restart(int i)
   return 1 + static_cast<int>(partners[i].size());
 }
 
+// called on all ranks, but the file keeps the answer of the first: room for the clusters of all
+
 int FixClusterBreakMerge::maxsize_restart()
 {
-  std::size_t most = 0;
-  for (int i = 0; i < atom->nlocal; i++) most = std::max(most, partners[i].size());
-  return 1 + static_cast<int>(most);
+  int mine = 0, most = 0;
+  for (int i = 0; i < atom->nlocal; i++) mine = std::max(mine, static_cast<int>(partners[i].size()));
+  MPI_Allreduce(&mine, &most, 1, MPI_INT, MPI_MAX, world);
+  return 1 + most;
 }

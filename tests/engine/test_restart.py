@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import scenes
-from lammps_run import run
+from lammps_run import clusters, diameter, head, pair, run
 
 
 def cut(tmp_path, np_, options="", gas=scenes.GAS):
@@ -49,3 +49,17 @@ def test_ids_of_the_dead_are_never_used_again(tmp_path):
     later = run(tmp_path / "again", script).dump()
     new = np.setdiff1d(later["id"], half["id"])
     assert len(new) > 10 and new.min() > half["id"].max()
+
+
+def test_contacts_of_every_rank_fit_into_the_file(tmp_path):
+    """All contacts are on the second rank. One that is lost on the way would count as ended, and break its cluster."""
+    d = diameter(400)
+    rows = [(400, (0.005 + 2e-3 * k, 0.02), (0.0, 0.0)) for k in range(4)]  # alone, on the first rank
+    rows += [(400, (0.03 + 0.999 * d * i, 0.02 + 0.999 * d * k), (0.0, 0.0)) for i in range(3) for k in range(3)]
+    start = "processors 2 1 1\n" + head() + clusters(*rows) + pair()
+    gas = "fix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 20 plane xz\n"
+    words = {"options": "test end merge no", "gas": gas}
+    run(tmp_path, start + scenes.fixes(**words) + "run 10\nwrite_restart half.restart\n", 2)
+    again = "processors 2 1 1\n" + scenes.again("half.restart", **words)
+    continued = run(tmp_path, again + "run 40\n", 2)
+    assert continued.table()[-1, scenes.BREAKUPS] == 0
