@@ -84,13 +84,15 @@ def reversed_gas(draw: Draw) -> Scene:
     clusters, side = loose(draw, d_p, 1e-6)
     scene = Scene(clusters, (side, side, side), 1.0, 200, d_p, momentum=False)
     scene.dt = draw.log(1e-3, 1e4) * stokes_time(scene)
-    u = min(draw.log(1e-6, 300.0), 0.2 * side / scene.dt)
+    u = min(draw.log(1e-6, 300.0), 0.2 * side / scene.dt)  # no cluster may cross the box in a step
+    own = min(1e-6, 0.2 * side / scene.dt)
+    scene.clusters.v *= own / 1e-6
     if draw.random.random() < 0.5:
         scene.before_gas = f"variable w equal {u!r}*(1-2*(floor(step/20)%2))"
     else:
         scene.before_gas = f"variable w atom {u!r}*(1-2*(x<{0.5 * side!r}))"
     scene.gas = f"velocity 0 0 v_w law {draw.one_of(LAWS)} integrator exponential"
-    scene.more = (slower_than(u + 1e-6),)
+    scene.more = (slower_than(u + own),)
     return scene
 
 

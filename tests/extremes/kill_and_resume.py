@@ -124,8 +124,8 @@ def killed_chain(folder: Path, setting: Setting, np_: int, kills: int, seed: int
         script += RESTARTS + f"run {TOTAL} upto\n"
         (folder / "step.txt").unlink(missing_ok=True)
         last = chain.kills == kills
-        # most of a run is still to come after most kills, so that all of them find one running
-        seconds = 600.0 if last else dice.uniform(0.2, 0.2 + 0.5 * whole)
+        to_go = 1.0 - (chain.cuts[-1] if chain.cuts else 0) / TOTAL
+        seconds = 600.0 if last else dice.uniform(0.2, 0.3 + 0.7 * whole * to_go)
         killed = kill_after(folder, script + END, np_, seconds, one_rank=np_ > 1 and dice.random() < 0.3)
         if (folder / "step.txt").exists():
             step = int((folder / "step.txt").read_text())
