@@ -10,6 +10,7 @@ from .errors import InputError
 
 PHASE = re.compile(r"^(\w+)\s*\|[^|]*\|([^|]*)\|[^|]*\|[^|]*\|[^|]*$")
 LOOP = re.compile(r"^Loop time of ([0-9.eE+-]+) on (\d+) procs for (\d+) steps with (\d+) atoms")
+CPU_USE = re.compile(r"^([0-9.]+)% CPU use with")
 VARIABLE = re.compile(r"^variable\s+(\w+)\s+(?:index|equal|string|getenv|internal)\s+(.+?)\s*$")
 
 
@@ -25,6 +26,8 @@ class EngineLog:
         Seconds by phase, summed over the runs of the log (average over ranks).
     loop : float
         Seconds in the time loop; ``steps``, ``ranks`` and ``wall`` (as printed) beside.
+    core_seconds : float
+        Loop time x ranks x the share of it that they computed (LAMMPS' "CPU use"; 1 where the log does not say).
     warnings : list of str
         Lines that begin with WARNING or ERROR.
     script : list of str
@@ -36,6 +39,7 @@ class EngineLog:
     version: str = ""
     phases: dict[str, float] = field(default_factory=dict)
     loop: float = 0.0
+    core_seconds: float = 0.0
     steps: int = 0
     ranks: int = 0
     wall: str = ""
@@ -58,6 +62,7 @@ def read_log(path: str | Path) -> EngineLog:
         raise InputError(path, f"cannot be read: {error.strerror}") from error
     log = EngineLog()
     in_table = False
+    last = 0.0  # core-seconds of the latest loop
     for line in text.splitlines():
         words = line.split()
         if not log.version and line.startswith(("LAMMPS (", "LIGGGHTS")):
@@ -66,6 +71,10 @@ def read_log(path: str | Path) -> EngineLog:
             in_table = False
             log.loop += float(loop[1])
             log.ranks, log.steps = int(loop[2]), log.steps + int(loop[3])
+            last = float(loop[1]) * log.ranks
+            log.core_seconds += last
+        elif use := CPU_USE.match(line):
+            log.core_seconds -= last * (1 - float(use[1]) / 100)
         elif phase := PHASE.match(line):
             try:
                 log.phases[phase[1]] = log.phases.get(phase[1], 0.0) + float(phase[2])

@@ -1,0 +1,53 @@
+"""Which LAMMPS runs: where it is, and an identity that changes when it or a plugin does."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import re
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..errors import InputError
+
+
+@dataclass(frozen=True)
+class Engine:
+    """A LAMMPS executable.
+
+    Parameters
+    ----------
+    path : str
+        The executable.
+    version : str
+        What it says first, such as ``LAMMPS (4 Feb 2025)``.
+    identity : str
+        Hash of the version, the executable and the plugins that it loads.
+    """
+
+    path: str
+    version: str
+    identity: str
+
+
+def find_engine(given: str | None = None) -> Engine:
+    """The executable that is given, or $CLUSTERDEM_LMP, or lmp beside this command, or lmp on the path."""
+    beside = shutil.which("lmp", path=str(Path(sys.argv[0]).absolute().parent))
+    named = given or os.environ.get("CLUSTERDEM_LMP")
+    path = shutil.which(named) if named else beside or shutil.which("lmp")
+    if path is None:
+        raise InputError("--lmp", f"{named or 'lmp'} is no executable: name LAMMPS by --lmp PATH or CLUSTERDEM_LMP")
+    path = os.path.abspath(path)
+    command = [path, "-in", os.devnull, "-log", "none"]
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
+    version = re.search(r"^LAMMPS \(.*?\)", done.stdout, re.MULTILINE)
+    if done.returncode != 0 or version is None:
+        raise InputError(path, f"is not LAMMPS, or does not start: {(done.stdout + done.stderr).strip()[-200:]}")
+    digest = hashlib.sha256(version[0].encode() + Path(path).read_bytes())
+    for folder in re.findall(r"^Loaded \d+ plugins? from (.+)$", done.stdout, re.MULTILINE):
+        for plugin in sorted(Path(folder.strip()).glob("*plugin.so")):
+            digest.update(plugin.read_bytes())
+    return Engine(path, version[0], digest.hexdigest())

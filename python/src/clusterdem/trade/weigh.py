@@ -1,0 +1,101 @@
+"""Every setting weighed: its cost, its errors, and the cheapest one that is accurate enough."""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from ..errors import InputError
+from .errors import Error, errors_of
+from .frames import read_frames
+from .observables import Observed, observe
+from .runs import Cost, Failure, Run, read_cost
+from .settings import Setting
+from .study import FEWEST_SEEDS, Study
+
+
+@dataclass(frozen=True)
+class Weighed:
+    """A setting with what it costs and how far it is from the reference.
+
+    Parameters
+    ----------
+    setting : Setting
+        The setting.
+    costs : tuple of Cost
+        Of its finished runs.
+    errors : dict of str to Error or None
+        By observable; None where the two cannot be compared.
+    failures : tuple of Failure
+        Its runs that failed.
+    """
+
+    setting: Setting
+    costs: tuple[Cost, ...]
+    errors: dict[str, Error | None]
+    failures: tuple[Failure, ...]
+
+    @property
+    def core_seconds(self) -> float:
+        """Median over seeds; infinite where no run finished."""
+        return statistics.median(cost.core_seconds for cost in self.costs) if self.costs else float("inf")
+
+    @property
+    def wall(self) -> float:
+        """Median over seeds (s)."""
+        return statistics.median(cost.wall for cost in self.costs) if self.costs else float("inf")
+
+    def within(self, tolerance: float) -> bool:
+        """Whether all runs finished and every observable keeps the tolerance."""
+        known = [error for error in self.errors.values() if error is not None]
+        return not self.failures and len(known) == len(self.errors) and all(e.counted <= tolerance for e in known)
+
+
+def weigh(study: Study, runs: Sequence[Run], failures: Mapping[str, Failure]) -> list[Weighed]:
+    """Weigh all settings of the runs against the first, the reference."""
+    by_setting: dict[str, list[Run]] = {}
+    for run in runs:
+        by_setting.setdefault(f"{run.setting.axis}: {run.setting.name}", []).append(run)
+    weighed: list[Weighed] = []
+    reference: dict[int, Observed] = {}
+    for group in by_setting.values():
+        done = [run for run in group if run.key not in failures]
+        found = {
+            run.seed: observe(read_frames(run.folder / "frames.npz"), study.observables, study.cell) for run in done
+        }
+        failed = tuple(failures[run.key] for run in group if run.key in failures)
+        if not weighed:
+            reference = found
+            if len(reference) < FEWEST_SEEDS:
+                raise InputError(
+                    study.path,
+                    f"the reference has {len(reference)} finished runs, it needs {FEWEST_SEEDS}"
+                    + "".join(f"; {failure.text}" for failure in failed[:1]),
+                )
+        errors = errors_of(found, reference, study.observables)
+        weighed.append(Weighed(group[0].setting, tuple(read_cost(run) for run in done), errors, failed))
+    return weighed
+
+
+def cheapest(weighed: Sequence[Weighed], tolerance: float) -> Weighed:
+    """The setting of the fewest core-seconds within the tolerance; the reference always is."""
+    return min((w for w in weighed if w is weighed[0] or w.within(tolerance)), key=lambda w: w.core_seconds)
+
+
+def best_of_each_axis(weighed: Sequence[Weighed], tolerance: float) -> list[Setting]:
+    """On every axis the cheapest setting within the tolerance, where it is cheaper than the reference."""
+    axes = dict.fromkeys(w.setting.axis for w in weighed[1:])
+    best = (cheapest([weighed[0], *(w for w in weighed[1:] if w.setting.axis == axis)], tolerance) for axis in axes)
+    return [w.setting for w in best if w is not weighed[0]]
+
+
+def front(weighed: Sequence[Weighed], error: Mapping[int, float]) -> list[int]:
+    """Numbers of the settings that no other beats in both cost and error (the Pareto front), cheapest first."""
+    chosen: list[int] = []
+    least = float("inf")
+    for number in sorted(error, key=lambda number: (weighed[number].core_seconds, error[number])):
+        if error[number] < least:
+            chosen.append(number)
+            least = error[number]
+    return chosen
