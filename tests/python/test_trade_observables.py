@@ -37,7 +37,9 @@ def test_two_clusters_by_hand():
     found = observed(frame([0.001, 0.011], [0.001, 0.011], [1e-4, 2e-4])).values
     unit = 1000 * np.pi / 6 * 1e-12
     assert found["clusters"][0] == pytest.approx([2 / (9 * unit)])
-    assert found["mean_diameter"][0] == pytest.approx([1.5e-4]) and found["sauter_diameter"][0] == pytest.approx([1.8e-4])
+    assert found["mean_diameter"][0] == pytest.approx([1.5e-4]) and found["sauter_diameter"][0] == pytest.approx(
+        [1.8e-4]
+    )
     assert found["size_classes"][0].tolist() == [100, 0, 0, 0]
     volume = 0.01 * 0.01 * 0.003
     assert found["map"][0] == pytest.approx(np.array([1, 0, 0, 8]) * unit / 2000 / volume)

@@ -70,7 +70,12 @@ def test_a_study_from_runs_to_answer(place, command):
     code, out, err = command(*place.arguments, "--tolerance", "0.05")
     assert (code, err) == (0, "")
     rows = place.table()
-    assert [row["setting"] for row in rows] == ["dt = 1e-6, every = 1", "dt = 2e-6", "every = 50", "dt = 2e-6, every = 50"]
+    assert [row["setting"] for row in rows] == [
+        "dt = 1e-6, every = 1",
+        "dt = 2e-6",
+        "every = 50",
+        "dt = 2e-6, every = 50",
+    ]
     assert place.launched() == 12 and len(place.done()) == 12
     assert all(float(row["core_seconds"]) > 0 and row["failed"] == "0" for row in rows)
     # all begin with the same clusters; checks at 50 steps instead of one come late, but not by much
@@ -127,8 +132,20 @@ def test_a_run_that_fails_is_reported_and_the_others_go_on(place, command):
     rows = place.table()
     assert [(row["finished"], row["failed"]) for row in rows] == [("3", "0"), ("0", "3"), ("3", "0")]
     report = (place.out / "tiny.md").read_text()
-    assert "## Runs that failed" in report and "n_max = 3000 (3 of 3 runs failed)" in report and "ghost cutoff" in report
+    assert (
+        "## Runs that failed" in report and "n_max = 3000 (3 of 3 runs failed)" in report and "ghost cutoff" in report
+    )
     assert "3000" not in (place.out / "tiny.in").read_text()
+
+
+def test_runs_of_an_engine_that_changes_meanwhile_do_not_count(place, command):
+    """Every run leaves the executable another than it was."""
+    place.lmp.write_text(
+        place.lmp.read_text().replace("\nexec", f'\ncase "$*" in *-var*) echo >> {place.lmp};; esac\nexec')
+    )
+    place.study("every = [1, 50]\n")
+    code, _, err = command(*place.arguments)
+    assert code == 2 and "was built anew during the study" in err and not place.done()
 
 
 def test_a_reference_that_fails(place, command):

@@ -41,7 +41,9 @@ def read(name, **variables):
 
 def test_includes_follow_the_variables():
     assert read("case1.in")[:4] == ["case1.in", "common.in", "reading_A.in", "contact_hooke.in"]
-    assert "contact_md.in" in read("case1.in", contact="md") and "contact_hooke.in" not in read("case1.in", contact="md")
+    assert "contact_md.in" in read("case1.in", contact="md") and "contact_hooke.in" not in read(
+        "case1.in", contact="md"
+    )
     assert "step_controlled.in" in read("case1.in", step="controlled")
     assert "case3.profile" in read("case3.in")  # a data file
 

@@ -159,3 +159,13 @@ def test_too_many_settings(study):
 def test_no_such_study(tmp_path, command):
     code, _, err = command("trade", tmp_path / "gone.toml")
     assert code == 2 and err.count("\n") == 1 and "gone.toml: cannot be read: No such file" in err
+
+
+def test_variables_and_seeds_of_the_command_line_win(study, tmp_path):
+    study(GOOD)
+    found = read_study(tmp_path / "study.toml", {"tend": "1e-4", "nx": "2"}, 4)
+    assert found.variables == {"tend": "1e-4", "nx": "2"} and found.seeds == (1, 2, 3, 4)
+    with pytest.raises(InputError, match="'dt': this variable is already set by"):
+        read_study(tmp_path / "study.toml", {"dt": "1e-4"})
+    with pytest.raises(InputError, match="seeds = 2: fewer than 3"):
+        read_study(tmp_path / "study.toml", seeds=2)

@@ -37,13 +37,26 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--jobs", type=int, metavar="N", help="runs at a time (default: as many as the cores hold)")
     parser.add_argument("--lmp", metavar="PATH", help="LAMMPS (default: CLUSTERDEM_LMP, or lmp beside this command)")
+    parser.add_argument(
+        "--var",
+        nargs=2,
+        action="append",
+        default=[],
+        metavar=("NAME", "VALUE"),
+        help="a variable of every run, over the study's: --var tend 0.002 for a short trial",
+    )
+    parser.add_argument("--seeds", type=int, metavar="N", help="seeds 1 to N in place of the study's")
     parser.add_argument("--dry-run", action="store_true", help="say what would be run, and run nothing")
 
 
 def run(options: argparse.Namespace) -> None:
     if options.jobs is not None and options.jobs < 1:
         raise InputError("--jobs", "must be 1 or more")
-    study, engine, out = read_study(options.study), find_engine(options.lmp), options.out
+    study, engine, out = (
+        read_study(options.study, dict(options.var), options.seeds),
+        find_engine(options.lmp),
+        options.out,
+    )
     jobs = options.jobs or max(1, len(os.sched_getaffinity(0)) // study.ranks)
     runs = plan(study, settings_of(study), engine, (out / "runs").absolute())
     if options.dry_run:

@@ -20,9 +20,7 @@ DECADES = 2.5
 """Decades below the spread that a panel shows; smaller errors stand on its lower edge."""
 
 
-def draw_pareto(
-    weighed: Sequence[Weighed], names: Sequence[str], title: str, tolerance: float | None = None
-) -> Figure:
+def draw_pareto(weighed: Sequence[Weighed], names: Sequence[str], title: str, tolerance: float | None = None) -> Figure:
     """One panel per observable; numbers are those of the table, the line joins settings that no other beats."""
     axes_of = list(dict.fromkeys(w.setting.axis for w in weighed))
     columns = min(2, len(names))

@@ -29,7 +29,7 @@ def write_frames(path: Path, frames: Iterable[Frame]) -> int:
 
 def read_frames(path: Path) -> list[Frame]:
     """The frames of :func:`write_frames`."""
-    frames = []
+    frames: list[Frame] = []
     with np.load(path) as data:
         while f"when{len(frames)}" in data:
             number = len(frames)

@@ -24,7 +24,7 @@ from ..errors import InputError
 from ..output import write_text
 from ..reader import read_dumps
 from ..rundir import find_run
-from .engine import Engine
+from .engine import Engine, find_engine
 from .frames import write_frames
 from .script import read_script
 from .settings import Setting
@@ -49,6 +49,8 @@ class Run:
         Where its results are once it is done.
     command : tuple of str
         How it is started.
+    engine : Engine
+        What runs it.
     """
 
     setting: Setting
@@ -56,6 +58,7 @@ class Run:
     key: str
     folder: Path
     command: tuple[str, ...]
+    engine: Engine
 
     @property
     def done(self) -> bool:
@@ -102,7 +105,9 @@ def plan(study: Study, settings: Iterable[Setting], engine: Engine, folder: Path
         for name in ("seed", *setting.variables):
             if name not in script.names:
                 raise InputError(study.path, f"{study.input.name} knows no variable {name!r}: it would change nothing")
-        files = [(os.path.relpath(file, inputs), hashlib.sha256(file.read_bytes()).hexdigest()) for file in script.files]
+        files = [
+            (os.path.relpath(file, inputs), hashlib.sha256(file.read_bytes()).hexdigest()) for file in script.files
+        ]
         for seed in study.seeds:
             decides = [FORMAT, engine.identity, study.ranks, sorted(setting.variables.items()), seed, files]
             key = hashlib.sha256(json.dumps(decides).encode()).hexdigest()[:24]
@@ -111,7 +116,7 @@ def plan(study: Study, settings: Iterable[Setting], engine: Engine, folder: Path
             own = dict(zip(OWN_VARIABLES, (str(seed), str(inputs), ".")))
             for name, value in {**setting.variables, **own}.items():
                 command += ["-var", name, value]
-            runs.append(Run(setting, seed, key, folder / key, tuple(command)))
+            runs.append(Run(setting, seed, key, folder / key, tuple(command), engine))
     return runs
 
 
@@ -199,6 +204,10 @@ def _execute(run: Run, workers: _Workers) -> Failure | None:
     reason = f"ended with status {code}"
     if code == 0:
         try:
+            if find_engine(run.engine.path).identity != run.engine.identity:
+                raise InputError(
+                    run.engine.path, "it or a plugin was built anew during the study: start the study again"
+                )
             _keep(part)
             os.replace(part, run.folder)
             return None

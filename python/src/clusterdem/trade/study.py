@@ -96,8 +96,18 @@ class Study:
     cell: tuple[float, float]
 
 
-def read_study(path: str | Path) -> Study:
-    """Read and check a study file; the message of a refusal names key, value and rule."""
+def read_study(path: str | Path, variables: Variables | None = None, seeds: int | None = None) -> Study:
+    """Read and check a study file; the message of a refusal names key, value and rule.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+    variables : dict of str to str, optional
+        Variables of every run, over those of the file.
+    seeds : int, optional
+        How many seeds, in place of those of the file.
+    """
     path = Path(path)
     try:
         table = tomllib.loads(path.read_text(encoding="utf-8"), parse_float=Written)
@@ -107,6 +117,10 @@ def read_study(path: str | Path) -> Study:
         raise InputError(path, "is not a text file (UTF-8)") from error
     except tomllib.TOMLDecodeError as error:
         raise InputError(path, f"is not TOML: {error}") from error
+    if seeds is not None:
+        table["seeds"] = seeds
+    if variables and isinstance(table.setdefault("variables", {}), dict):
+        table["variables"] |= variables
     return _Reader(path, table).study()
 
 
