@@ -28,7 +28,7 @@ using namespace ClusterDEM;
 FixClusterTimestep::FixClusterTimestep(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), contact_factor(CONTACT_PI / 5.0), stiffness(0.0), stiffness_given(false), overlap_limit(1.0),
     energy_test(true), tolerance(1.0e-6), kinetic(false), predict(true), floor_given(0.0), pairs(lmp), pair(nullptr),
-    breakmerge(nullptr), motion{}, range(0.0), fastest(0.0), gain(0.0), looks_ago(0), look_due(true), overlap_bound(INFINITY), test_due(false),
+    breakmerge(nullptr), motion{}, range(0.0), fastest(0.0), gain(0.0), acceleration_at_look(0.0), looks_ago(0), look_due(true), overlap_bound(INFINITY), test_due(false),
     repeating(false), moved(0.0), kinetic_mine(0.0), energy_all(0.0), restless_all{INFINITY, 0.0}, recent_error(0.0), saved(-1), saved_forces(false), elastic_before(0.0), count{}, worst_overlap(-INFINITY),
     last_error(0.0), worst_error(0.0)
 {

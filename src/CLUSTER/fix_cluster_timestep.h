@@ -63,7 +63,7 @@ class FixClusterTimestep : public Fix {
     double smallest;         // diameter
   } motion;
   double range, fastest;     // of velocities, when last looked at; how much that may have grown since:
-  double gain;
+  double gain, acceleration_at_look;
   int looks_ago;
   bool look_due;             // clusters changed, or moved by other than forces
   double overlap_bound;      // no overlap is larger than this times d_i
@@ -99,6 +99,8 @@ class FixClusterTimestep : public Fix {
   void find_pair();
   void observe();
   void look();
+  double strongest_contact() const;
+  double largest_force();
   [[noreturn]] void stop_not_finite();
   void find_smallest();
   bool may_be_rejected() const;

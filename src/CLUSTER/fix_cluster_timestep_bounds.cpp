@@ -7,6 +7,7 @@
 #include "fix_cluster_timestep.h"
 
 #include "fix_cluster_breakmerge.h"
+#include "pair_gran_cluster.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -24,6 +25,8 @@ using namespace ClusterDEM;
 
 static constexpr double PREDICTED_SHARE = 0.9;    // of the time to the overlap limit
 static constexpr int LOOK_EVERY = 8;              // steps between looks at all velocities
+static constexpr double OTHER_FORCES = 2.0;       // how much they may grow between looks
+static constexpr double MARGIN = 1.01;            // and what they may do where there were none
 
 /* ----------------------------------------------------------------------
    Lowest and highest components of n vectors, four vectors at a time so that the processor takes them together.
@@ -61,8 +64,8 @@ static bool extremes(double **vectors, int n, double *lowest, double *highest)
 }
 
 /* ----------------------------------------------------------------------
-   What bounds the step, on all ranks. All velocities are looked at now and then; in between their range grows by no more
-   than the largest force on the lightest cluster times the step.
+   What bounds the step, on all ranks. All velocities and forces are looked at now and then; in between the range of
+   velocities grows by what contacts push and by other forces, which are taken to double at most.
 ------------------------------------------------------------------------- */
 
 void FixClusterTimestep::observe()
@@ -71,6 +74,25 @@ void FixClusterTimestep::observe()
     look();
     return;
   }
+  const double before = motion.acceleration;
+  motion.acceleration = pair ? OTHER_FORCES * acceleration_at_look + MOST_CONTACTS * strongest_contact()
+                             : largest_force() / motion.lightest;
+  gain += 0.5 * (before + motion.acceleration) * update->dt;    // of the step before this one
+  motion.closing = MARGIN * range + 2.0 * gain;
+  motion.speed = MARGIN * fastest + gain;
+}
+
+double FixClusterTimestep::strongest_contact() const
+{
+  double all;
+  const double mine = force->ftm2v * pair->restlessness().strongest;
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_MAX, world);
+  return all;
+}
+
+// of another pair style contact forces are not told apart
+double FixClusterTimestep::largest_force()
+{
   double lowest[3], highest[3], mine[4], all[4];
   std::fill(lowest, lowest + 3, INFINITY);
   std::fill(highest, highest + 3, -INFINITY);
@@ -78,11 +100,7 @@ void FixClusterTimestep::observe()
   for (int k = 0; k < 3; k++) mine[k] = std::max({0.0, -lowest[k], highest[k]});
   MPI_Allreduce(mine, all, 4, MPI_DOUBLE, MPI_MAX, world);
   if (all[3] > 0.0) stop_not_finite();
-  const double before = motion.acceleration;
-  motion.acceleration = force->ftm2v * norm({all[0], all[1], all[2]}) / motion.lightest;
-  gain += 0.5 * (before + motion.acceleration) * update->dt;    // of the step before this one
-  motion.closing = range + 2.0 * gain;
-  motion.speed = fastest + gain;
+  return force->ftm2v * norm({all[0], all[1], all[2]});
 }
 
 void FixClusterTimestep::look()
@@ -116,7 +134,7 @@ void FixClusterTimestep::look()
   }
   motion.closing = range = norm(width);
   motion.speed = fastest = norm(most);
-  motion.acceleration = force->ftm2v * std::sqrt(all[6]);
+  motion.acceleration = acceleration_at_look = force->ftm2v * std::sqrt(all[6]);
   gain = 0.0;
   looks_ago = 0;
   look_due = false;

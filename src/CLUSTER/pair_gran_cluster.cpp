@@ -223,7 +223,8 @@ template <bool ROTATE, bool FRICTION> void PairGranCluster::compute_contacts()
         energy += law.tangential_energy(c.overlap, c.f_n, displacement);
       }
       const Vec3 force = c.force();
-      if (!std::isfinite(dot(force, force)))
+      const double force_sq = dot(force, force);
+      if (!std::isfinite(force_sq))
         error->one(FLERR, "Pair style gran/cluster: the contact force of clusters {} and {} is not finite at step {}: "
                    "their centres are {} apart and their relative speed is {}",
                    atom->tag[i], atom->tag[j], update->ntimestep, c.r, norm(c.velocity));
@@ -232,6 +233,7 @@ template <bool ROTATE, bool FRICTION> void PairGranCluster::compute_contacts()
       const double share = both ? 1.0 : 0.5;
       elastic += share * energy;
       const double speed_sq = dot(c.velocity, c.velocity);
+      restless.strongest = MAX(restless.strongest, std::sqrt(force_sq) / MIN(atom->rmass[i], atom->rmass[j]));
       restless.swing += share * law.k_n * (0.5 * speed_sq + energy / c.m);
       if (FRICTION)
         restless.creep += share * (energy - law.normal_energy(c.overlap)) * std::sqrt(speed_sq) / c.overlap;

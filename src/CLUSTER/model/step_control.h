@@ -47,7 +47,12 @@ inline double relative_creation(double created, double energy)
 // the normal load grows.
 struct Restlessness {
   double swing = 0.0, creep = 0.0;
+  double strongest = 0.0;    // largest force of a contact over the lighter mass
 };
+
+// No cluster is accelerated by contacts by more than this many times `strongest`: twelve equal spheres touch one, and
+// the more numerous smaller ones around a larger one are the lighter for it.
+inline constexpr double MOST_CONTACTS = 12.0;
 
 // Their sum, with a margin, and for ten contacts that begin at approach c: (omega dt)^4/8 of m c^2 each (exact for the
 // linear spring). Where this is too much a step is prepared to be taken back.
