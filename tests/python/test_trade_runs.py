@@ -148,6 +148,16 @@ def test_runs_of_an_engine_that_changes_meanwhile_do_not_count(place, command):
     assert code == 2 and "was built anew during the study" in err and not place.done()
 
 
+def test_what_is_accurate_alone_need_not_be_together(place, command):
+    """50 steps instead of 200 are enough, checks at every 100th step too; but of 50 steps none is a 100th."""
+    place.study("dt = [1e-6, 4e-6]\nevery = [1, 100]\n")
+    code, out, _ = command(*place.arguments, "--tolerance", "0.05")
+    assert code == 0
+    errors = {row["setting"]: float(row["clusters_error"]) for row in place.table()}
+    assert max(errors["dt = 4e-6"], errors["every = 100"]) < 0.05 < errors["dt = 4e-6, every = 100"]
+    assert "dt = 4e-6, every = 100" not in out.splitlines()[-1]
+
+
 def test_a_reference_that_fails(place, command):
     place.study("n_max = [3000, 2000]\n")
     code, _, err = command(*place.arguments)

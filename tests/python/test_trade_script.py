@@ -16,7 +16,7 @@ from clusterdem.trade.settings import settings_of
 from clusterdem.trade.study import read_study
 
 INPUTS = Path(__file__).parents[2] / "inputs"
-ENGINE = Engine("/opt/lmp", "LAMMPS (4 Feb 2025)", "plugin as it is")
+ENGINE = Engine("/opt/lmp", "LAMMPS (4 Feb 2025)", "plugin as it is", ())
 STUDY = 'input = "inputs/case1.in"\nseeds = 3\n[switches]\ncontact = ["hooke", "md"]\n'
 
 

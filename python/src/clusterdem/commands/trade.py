@@ -4,7 +4,7 @@ STUDY.toml names a LAMMPS input script, its switches (variables with their value
 seeds. Every distinct run is done once, several at a time; an interrupted study goes on where it was. Writes to DIR
 NAME.csv and NAME.md, the table, and NAME.png, error against core-seconds; NAME is the study's. With --tolerance also
 NAME.in, an input with the cheapest setting that keeps every observable within it; where axes are changed one at a time,
-the best of each axis are run together, and that is weighed too.
+the cheap settings are then combined, axis by axis, as far as the tolerance holds.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from pathlib import Path
 from ..errors import InputError
 from ..style import save
 from ..trade.answer import in_words, write_answer
+from ..trade.campaign import Campaign
 from ..trade.engine import find_engine
 from ..trade.figure import draw_pareto
 from ..trade.report import write_report, write_table
-from ..trade.runs import only_one, perform, plan
-from ..trade.settings import settings_of, together
+from ..trade.runs import only_one
 from ..trade.study import read_study
-from ..trade.weigh import best_of_each_axis, cheapest, weigh
+from ..trade.weigh import cheapest
 from .common import positive, tell
 
 
@@ -58,20 +58,17 @@ def run(options: argparse.Namespace) -> None:
         options.out,
     )
     jobs = options.jobs or max(1, len(os.sched_getaffinity(0)) // study.ranks)
-    runs = plan(study, settings_of(study), engine, (out / "runs").absolute())
+    campaign = Campaign(study, engine, (out / "runs").absolute(), jobs)
+    planned = campaign.planned()
     if options.dry_run:
-        for one in runs:
+        for one in planned:
             print(f"{'done   ' if one.done else 'missing'}  seed {one.seed}  {one.setting.axis}: {one.setting.name}")
         return
     with only_one(out / "runs"):
-        failures = perform(runs, jobs)
-        weighed = weigh(study, runs, failures)
+        campaign.carry_out(planned)
         if options.tolerance and not study.product:
-            best = best_of_each_axis(weighed, options.tolerance)
-            if len(best) > 1:
-                runs += plan(study, [together(study, best)], engine, (out / "runs").absolute())
-                failures |= perform(runs[-len(study.seeds) :], jobs)
-                weighed = weigh(study, runs, failures)
+            campaign.combine(options.tolerance)
+    weighed, failures = campaign.weighed, campaign.failures
     stem, words = out / study.path.stem, ""
     if options.tolerance:
         answer = cheapest(weighed, options.tolerance)
@@ -91,5 +88,5 @@ def run(options: argparse.Namespace) -> None:
     if failures:
         for failure in failures.values():
             print(failure.text, file=sys.stderr)
-        rule = f"{len(failures)} of {len(runs)} runs failed; the others are in the table"
+        rule = f"{len(failures)} of {len(campaign.runs)} runs failed; the others are in the table"
         raise InputError(study.path, rule)

@@ -26,11 +26,26 @@ class Engine:
         What it says first, such as ``LAMMPS (4 Feb 2025)``.
     identity : str
         Hash of the version, the executable and the plugins that it loads.
+    files : tuple of Path
+        The executable and the plugins.
     """
 
     path: str
     version: str
     identity: str
+    files: tuple[Path, ...]
+
+    @property
+    def changed(self) -> bool:
+        """Whether one of the files is another than when the engine was found."""
+        return _identity(self.version, self.files) != self.identity
+
+
+def _identity(version: str, files: tuple[Path, ...]) -> str:
+    digest = hashlib.sha256(version.encode())
+    for file in files:
+        digest.update(file.read_bytes() if file.is_file() else b"gone")
+    return digest.hexdigest()
 
 
 def find_engine(given: str | None = None) -> Engine:
@@ -46,8 +61,7 @@ def find_engine(given: str | None = None) -> Engine:
     version = re.search(r"^LAMMPS \(.*?\)", done.stdout, re.MULTILINE)
     if done.returncode != 0 or version is None:
         raise InputError(path, f"is not LAMMPS, or does not start: {(done.stdout + done.stderr).strip()[-200:]}")
-    digest = hashlib.sha256(version[0].encode() + Path(path).read_bytes())
+    files = [Path(path)]
     for folder in re.findall(r"^Loaded \d+ plugins? from (.+)$", done.stdout, re.MULTILINE):
-        for plugin in sorted(Path(folder.strip()).glob("*plugin.so")):
-            digest.update(plugin.read_bytes())
-    return Engine(path, version[0], digest.hexdigest())
+        files += sorted(Path(folder.strip()).glob("*plugin.so"))
+    return Engine(path, version[0], _identity(version[0], tuple(files)), tuple(files))

@@ -22,7 +22,7 @@ DECADES = 2.5
 
 def draw_pareto(weighed: Sequence[Weighed], names: Sequence[str], title: str, tolerance: float | None = None) -> Figure:
     """One panel per observable; numbers are those of the table, the line joins settings that no other beats."""
-    axes_of = list(dict.fromkeys(w.setting.axis for w in weighed))
+    axes_of = list(dict.fromkeys(_axis(w) for w in weighed))
     columns = min(2, len(names))
     rows = math.ceil(len(names) / columns)
     with styled():
@@ -44,6 +44,10 @@ def draw_pareto(weighed: Sequence[Weighed], names: Sequence[str], title: str, to
         figure.legend(handles=handles, loc="outside lower center", ncols=4, frameon=False)
         figure.suptitle(title, fontsize=8)
     return figure
+
+
+def _axis(w: Weighed) -> str:
+    return "combinations" if " + " in w.setting.axis else w.setting.axis
 
 
 def _mark(axis: int) -> str:
@@ -71,7 +75,7 @@ def _panel(panel: Axes, weighed: Sequence[Weighed], name: str, axes_of: Sequence
     )
     for number, error in errors.items():
         w, value = weighed[number], shown[number]
-        x, axis = w.core_seconds, axes_of.index(w.setting.axis)
+        x, axis = w.core_seconds, axes_of.index(_axis(w))
         costs = [cost.core_seconds for cost in w.costs]
         below = min(error.uncertainty, value - floor) if error.uncertainty > 0 else 0.0
         above = error.uncertainty if error.uncertainty > 0 else 0.0
@@ -87,6 +91,8 @@ def _panel(panel: Axes, weighed: Sequence[Weighed], name: str, axes_of: Sequence
             zorder=2,
             clip_on=False,
         )
+        if value == floor and number not in line:
+            continue  # a crowd on the lower edge: no two could be told apart
         panel.annotate(
             str(number), (x, 100 * value), xytext=(3, 3), textcoords="offset points", fontsize=6, annotation_clip=False
         )

@@ -14,6 +14,10 @@ from .study import Study
 from .weigh import Weighed
 
 
+ROUNDING = 1e-12
+"""Errors below this come from sums in another order."""
+
+
 def percent(value: float) -> str:
     """A share as percent, two significant digits."""
     if not math.isfinite(value):
@@ -25,7 +29,7 @@ def show(error: Error | None) -> str:
     """An error for the table, bold where one run could show it."""
     if error is None:
         return "n/c"
-    text = f"{percent(error.value)} ± {percent(error.uncertainty)}" if error.value > 0 else "0"
+    text = f"{percent(error.value)} ± {percent(error.uncertainty)}" if error.value > ROUNDING else "0"
     return text if error.inside else f"**{text}**"
 
 

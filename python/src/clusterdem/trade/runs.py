@@ -24,7 +24,7 @@ from ..errors import InputError
 from ..output import write_text
 from ..reader import read_dumps
 from ..rundir import find_run
-from .engine import Engine, find_engine
+from .engine import Engine
 from .frames import write_frames
 from .script import read_script
 from .settings import Setting
@@ -204,7 +204,7 @@ def _execute(run: Run, workers: _Workers) -> Failure | None:
     reason = f"ended with status {code}"
     if code == 0:
         try:
-            if find_engine(run.engine.path).identity != run.engine.identity:
+            if run.engine.changed:
                 raise InputError(
                     run.engine.path, "it or a plugin was built anew during the study: start the study again"
                 )

@@ -52,8 +52,22 @@ class Weighed:
         return not self.failures and len(known) == len(self.errors) and all(e.counted <= tolerance for e in known)
 
 
-def weigh(study: Study, runs: Sequence[Run], failures: Mapping[str, Failure]) -> list[Weighed]:
-    """Weigh all settings of the runs against the first, the reference."""
+def weigh(
+    study: Study, runs: Sequence[Run], failures: Mapping[str, Failure], observed: dict[str, Observed]
+) -> list[Weighed]:
+    """Weigh all settings of the runs against the first, the reference.
+
+    Parameters
+    ----------
+    study : Study
+        What to observe.
+    runs : sequence of Run
+        Those of the reference first.
+    failures : mapping of str to Failure
+        Runs that failed, by key.
+    observed : dict of str to Observed
+        What has been observed so far, by key; runs that are missing here are read and added.
+    """
     by_setting: dict[str, list[Run]] = {}
     for run in runs:
         by_setting.setdefault(f"{run.setting.axis}: {run.setting.name}", []).append(run)
@@ -61,9 +75,10 @@ def weigh(study: Study, runs: Sequence[Run], failures: Mapping[str, Failure]) ->
     reference: dict[int, Observed] = {}
     for group in by_setting.values():
         done = [run for run in group if run.key not in failures]
-        found = {
-            run.seed: observe(read_frames(run.folder / "frames.npz"), study.observables, study.cell) for run in done
-        }
+        for run in done:
+            if run.key not in observed:
+                observed[run.key] = observe(read_frames(run.folder / "frames.npz"), study.observables, study.cell)
+        found = {run.seed: observed[run.key] for run in done}
         failed = tuple(failures[run.key] for run in group if run.key in failures)
         if not weighed:
             reference = found
@@ -81,13 +96,6 @@ def weigh(study: Study, runs: Sequence[Run], failures: Mapping[str, Failure]) ->
 def cheapest(weighed: Sequence[Weighed], tolerance: float) -> Weighed:
     """The setting of the fewest core-seconds within the tolerance; the reference always is."""
     return min((w for w in weighed if w is weighed[0] or w.within(tolerance)), key=lambda w: w.core_seconds)
-
-
-def best_of_each_axis(weighed: Sequence[Weighed], tolerance: float) -> list[Setting]:
-    """On every axis the cheapest setting within the tolerance, where it is cheaper than the reference."""
-    axes = dict.fromkeys(w.setting.axis for w in weighed[1:])
-    best = (cheapest([weighed[0], *(w for w in weighed[1:] if w.setting.axis == axis)], tolerance) for axis in axes)
-    return [w.setting for w in best if w is not weighed[0]]
 
 
 def front(weighed: Sequence[Weighed], error: Mapping[int, float]) -> list[int]:
