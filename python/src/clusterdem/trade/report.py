@@ -13,7 +13,6 @@ from .observables import OBSERVABLES
 from .study import Study
 from .weigh import Weighed
 
-
 ROUNDING = 1e-12
 """Errors below this come from sums in another order."""
 
