@@ -96,7 +96,7 @@ def versions() -> str:
     return f"LAMMPS {lammps.strip()}, this project at {commit.strip()}"
 
 
-def readme(seen: dict[str, list[Outcome]], seed: int, more: tuple[str, str], minutes: float) -> str:
+def readme(seen: dict[str, list[Outcome]], seed: int, more: tuple[str, str], built: str, minutes: float) -> str:
     total = Counter(o.kind for outcomes in seen.values() for o in outcomes)
     rows = "\n".join(row(name, outcomes) for name, outcomes in seen.items())
     return (
@@ -112,7 +112,7 @@ def readme(seen: dict[str, list[Outcome]], seed: int, more: tuple[str, str], min
             kills=more[0],
             cuts=more[1],
             date=time.strftime("%-d %b %Y"),
-            versions=versions(),
+            versions=built,
             minutes=f"{minutes:.0f}",
         )
     )
@@ -128,7 +128,8 @@ def main() -> int:
         if word.partition(":")[0] not in FAMILIES:
             parser.error(f"no family '{word}': " + ", ".join(FAMILIES))
     began = time.monotonic()
-    print(f"seed {given.seed}", flush=True)
+    built = versions()  # as they are now: the campaign takes a while
+    print(f"seed {given.seed}, {built}", flush=True)
     with tempfile.TemporaryDirectory() as scratch:
         keep = given.keep or Path(scratch)
         seen = scenes(given.what or list(FAMILIES), given.seed, keep)
@@ -136,7 +137,7 @@ def main() -> int:
         if not given.what:
             (killed, bad_kills), (cut, bad_cuts) = kills(keep, given.seed), cuts(keep, given.seed)
             failed += bad_kills + bad_cuts
-            text = readme(seen, given.seed, (killed, cut), (time.monotonic() - began) / 60.0)
+            text = readme(seen, given.seed, (killed, cut), built, (time.monotonic() - began) / 60.0)
             (HERE / "README.md").write_text(text)
     print(f"{sum(map(len, seen.values()))} scenes, {failed} failed")
     return failed > 0

@@ -108,8 +108,8 @@ def too_coarse(draw: Draw, contact: Contact) -> Scene:
     "stock e = 0",
     8,
     2,
-    "two clusters meet with e = 0 in pair granular, whose damping takes the logarithm of e; fix cluster/breakmerge or fix "
-    "drag/cluster beside it",
+    "two clusters meet with e = 0 in pair granular, whose damping takes the logarithm of e; fix cluster/breakmerge or "
+    "fix drag/cluster beside it",
     "refused at the contact: the force of that pair style is not a number (pair gran/cluster takes e = 0)",
     "As in “one point”",
 )

@@ -42,7 +42,7 @@ LAWS = ["stokes", "trancong 0.8 1.1", "schiller/naumann", "wen/yu 0.6", "difelic
     "exponential and explicit drag, Δt/τ (Stokes) 1e-3…1e4, np 1 and 2",
     "kinetic energy relative to the gas never rises. Explicit drag above Δt = 2τ grows without bounds: refused (with "
     "law stokes: exactly then)",
-    "Explicit drag above 2τ ran on until clusters were thrown out of the box (15 of 60 scenes ended in “Lost "
+    "Explicit drag above 2τ ran on until clusters were thrown out of the box (14 of 60 scenes ended in “Lost "
     "atoms”): it is refused at once",
 )
 def gas(draw: Draw) -> Scene:

@@ -71,8 +71,8 @@ def controlled_impact(draw: Draw) -> Scene:
     "with energy TOL, pair granular with energy off and its stiffness; both fixes of ours, np 1 and 2",
     "held or refused; with gran/cluster energy ≤ start·(1 + 2·steps·TOL), whatever DT_MAX; pair granular: particles, "
     "momentum",
-    "Steps on which neighbor lists are rebuilt are not tested for energy: one scene rose by 2.0e-3 in 1500 steps of TOL "
-    "1e-6. That is how the fix works; the bound here allows for it",
+    "Steps on which neighbor lists are rebuilt are not tested for energy: one scene rose by 2.0e-3 in 1500 steps of "
+    "TOL 1e-6. That is how the fix works; the bound here allows for it",
 )
 def controlled_crowd(draw: Draw) -> Scene:
     stock = draw.index % 4 == 0
