@@ -13,9 +13,6 @@ from .settings import Setting, settings_of, together
 from .study import Study
 from .weigh import Weighed, cheapest, weigh
 
-WORTH = 0.02
-"""Share of the reference's core-seconds that a setting must save to be tried in combination; less is the clock's noise."""
-
 
 @dataclass
 class Campaign:
@@ -57,9 +54,7 @@ class Campaign:
         What is accurate alone need not be together: rare checks and long steps each cost little, both a lot. So every
         combination is run. The axis that saves most comes first; of each axis the cheapest setting that holds is kept.
         """
-        reference = self.weighed[0]
-        most = (1 - WORTH) * reference.core_seconds
-        alone = [w for w in self.weighed[1:] if w.within(tolerance) and w.core_seconds < most]
+        alone = [w for w in self.weighed[1:] if w.within(tolerance) and w.cheaper_than(self.weighed[0])]
         alone.sort(key=lambda w: w.core_seconds)
         kept: list[Setting] = []
         for axis in dict.fromkeys(w.setting.axis for w in alone):

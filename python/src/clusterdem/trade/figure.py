@@ -55,7 +55,8 @@ def _mark(axis: int) -> str:
 
 
 def _colour(axis: int) -> str:
-    return ("#000000", *COLOURS[:-1])[axis % len(COLOURS)]
+    palette = ("#000000", *COLOURS[:-1], "#8C564B", "#7F7F7F")
+    return palette[axis % len(palette)]
 
 
 def _panel(panel: Axes, weighed: Sequence[Weighed], name: str, axes_of: Sequence[str]) -> None:
@@ -76,7 +77,7 @@ def _panel(panel: Axes, weighed: Sequence[Weighed], name: str, axes_of: Sequence
     for number, error in errors.items():
         w, value = weighed[number], shown[number]
         x, axis = w.core_seconds, axes_of.index(_axis(w))
-        costs = [cost.core_seconds for cost in w.costs]
+        costs = [cost.core_seconds for cost in w.costs.values()]
         below = min(error.uncertainty, value - floor) if error.uncertainty > 0 else 0.0
         above = error.uncertainty if error.uncertainty > 0 else 0.0
         panel.errorbar(

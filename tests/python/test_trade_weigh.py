@@ -1,0 +1,58 @@
+"""The answer: cheapest within the tolerance, no change that the clock cannot show; the Pareto front."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from clusterdem.trade.errors import Error
+from clusterdem.trade.runs import Cost, Failure, Run
+from clusterdem.trade.settings import Setting
+from clusterdem.trade.weigh import Weighed, cheapest, front
+
+
+def weighed(axis, seconds, error, failures=()):
+    errors = {"map": None if error is None else Error(error, 0.0, 0.02)}
+    return Weighed(Setting(axis, axis, {}), {k: Cost(s, s) for k, s in enumerate(seconds, 1)}, errors, failures)
+
+
+REFERENCE = weighed("reference", [10.0, 11.0, 12.0], 0.0)
+
+
+def test_cheapest_within_the_tolerance():
+    coarse, fine = weighed("dt", [2.0, 2.1, 2.2], 0.2), weighed("every", [5.0, 5.1, 5.2], 0.04)
+    assert cheapest([REFERENCE, coarse, fine], 0.05) is fine
+    assert cheapest([REFERENCE, coarse, fine], 0.2) is coarse
+    assert cheapest([REFERENCE, coarse, fine], 0.01) is REFERENCE
+
+
+def test_an_error_inside_the_spread_is_none():
+    inside = weighed("dt", [2.0, 2.1, 2.2], 0.02)
+    assert cheapest([REFERENCE, inside], 1e-6) is inside
+
+
+@pytest.mark.parametrize("seconds", [[9.9, 10.9, 11.9], [10.1, 5.0, 5.0]], ids=["less than 2 %", "not with every seed"])
+def test_what_the_clock_cannot_show_is_no_saving(seconds):
+    assert cheapest([REFERENCE, weighed("digits", seconds, 0.0)], 0.05) is REFERENCE
+
+
+def test_of_equals_the_one_with_fewest_changes():
+    one, two = weighed("dt", [2.0, 2.1, 2.2], 0.0), weighed("dt + merge", [1.99, 2.08, 2.19], 0.0)
+    assert cheapest([REFERENCE, two, one], 0.05) is one
+    two = weighed("dt + merge", [1.0, 1.1, 1.2], 0.0)
+    assert cheapest([REFERENCE, two, one], 0.05) is two
+
+
+def test_what_failed_or_cannot_be_compared_is_no_answer():
+    run = Run(REFERENCE.setting, 1, "key", Path("runs/key"), ("lmp",), None)
+    failed, other_box = (
+        weighed("dt", [1.0, 1.0], 0.0, (Failure(run, "lost"),)),
+        weighed("height", [1.0, 1.0, 1.0], None),
+    )
+    assert cheapest([REFERENCE, failed, other_box], 0.05) is REFERENCE
+
+
+def test_front():
+    """Settings at 10, 5, 4 and 2 s: that of 4 s is beaten by 2 s, which is as accurate."""
+    all_of_them = [REFERENCE, *(weighed("dt", [s, s, s], 0.0) for s in (5.0, 4.0, 2.0))]
+    assert front(all_of_them, {0: 0.0, 1: 0.1, 2: 0.3, 3: 0.3}) == [3, 1, 0]
