@@ -23,14 +23,18 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 using namespace ClusterDEM;
 
+// Energy below this share of the largest in a run is that of rounded positions.
+static constexpr double ROUNDING = 1.0e-12;
+
 /* ---------------------------------------------------------------------- */
 
 FixClusterTimestep::FixClusterTimestep(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), contact_factor(CONTACT_PI / 5.0), stiffness(0.0), stiffness_given(false), overlap_limit(1.0),
     energy_test(true), tolerance(1.0e-6), kinetic(false), predict(true), floor_given(0.0), pairs(lmp), pair(nullptr),
-    breakmerge(nullptr), motion{}, range(0.0), fastest(0.0), gain(0.0), acceleration_at_look(0.0), looks_ago(0), look_due(true), overlap_bound(INFINITY), test_due(false),
-    repeating(false), moved(0.0), kinetic_mine(0.0), energy_all(0.0), restless_all{INFINITY, 0.0}, recent_error(0.0), saved(-1), saved_forces(false), elastic_before(0.0), count{}, worst_overlap(-INFINITY),
-    last_error(0.0), worst_error(0.0)
+    breakmerge(nullptr), motion{}, range(0.0), fastest(0.0), gain(0.0), acceleration_at_look(0.0), looks_ago(0),
+    look_due(true), overlap_bound(INFINITY), test_due(false), repeating(false), moved(0.0), kinetic_mine(0.0),
+    energy_all(0.0), most_energy(0.0), restless_all{INFINITY, 0.0}, recent_error(0.0), saved(-1), saved_forces(false),
+    elastic_before(0.0), count{}, worst_overlap(-INFINITY), last_error(0.0), worst_error(0.0)
 {
   time_depend = 1;
   restart_global = 1;
@@ -138,6 +142,7 @@ void FixClusterTimestep::setup(int)
   moved = INFINITY;
   recent_error = 0.0;
   restless_all = {INFINITY, 0.0};
+  most_energy = 0.0;
   look_due = true;
   saved = -1;
   find_smallest();
@@ -248,7 +253,8 @@ void FixClusterTimestep::end_of_step()
                           pair->restlessness().swing, pair->restlessness().creep};
   double all[4];
   MPI_Allreduce(mine, all, 4, MPI_DOUBLE, MPI_SUM, world);
-  const double relative = relative_creation(all[0], all[1]);
+  most_energy = std::max(most_energy, all[1]);
+  const double relative = relative_creation(all[0] - ROUNDING * most_energy, all[1]);
   const bool too_much = !(relative <= tolerance);
   if (too_much && saved_forces && saved >= 0) {
     count[BY_ENERGY]++;

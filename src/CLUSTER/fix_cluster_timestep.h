@@ -72,6 +72,7 @@ class FixClusterTimestep : public Fix {
   double moved;              // bound on the way of any cluster since the lists were built
   double kinetic_mine;       // energy of my clusters, when last looked at
   double energy_all;         // at the end of the last step tested
+  double most_energy;        // in this run
   ClusterDEM::Restlessness restless_all;
   double recent_error;       // largest of the last steps, as a share of what would be too much
 

@@ -124,9 +124,10 @@ class ContactLaw {
   Vec3 linear_friction(double limit, double eta, const Vec3 &v_t, Vec3 &displacement) const
   {
     const Vec3 force = (-spring_t_) * displacement - eta * v_t;
-    const Vec3 capped = cap(force, limit);
-    if (capped != force) displacement = (-1.0 / spring_t_) * (capped + eta * v_t);
-    return capped;
+    // LAMMPS' own styles also put the damping force into the displacement here, which stores energy that nobody spent
+    const double s = norm(displacement);
+    if (spring_t_ * s > limit) displacement = (limit / (spring_t_ * s)) * displacement;
+    return cap(force, limit);
   }
 
   static Vec3 cap(const Vec3 &force, double limit)
