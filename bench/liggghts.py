@@ -37,7 +37,7 @@ velocity all set v_u 0 v_w
 fix move all {motion}
 fix fall all gravity 9.81 vector 0 0 -1
 timestep 1e-6
-thermo_style custom step {atoms} ke
+thermo_style custom step atoms ke
 thermo {every}
 run {steps}
 """
