@@ -12,6 +12,7 @@
 #include "fix_cluster_breakmerge.h"
 #include "fix_cluster_timestep.h"
 #include "fix_drag_cluster.h"
+#include "fix_nve_cluster.h"
 #include "pair_gran_cluster.h"
 
 #include "atom.h"
@@ -52,20 +53,21 @@ extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   plugin.author = "Cluster DEM developers";
   plugin.handle = handle;
 
-  plugin.name = "drag/cluster";
-  plugin.info = "gas drag on particle clusters";
-  plugin.creator.v2 = (lammpsplugin_factory2 *) &create_fix<FixDragCluster>;
-  register_style(&plugin, lmp);
-
-  plugin.name = "cluster/breakmerge";
-  plugin.info = "size, breakup and merging of particle clusters";
-  plugin.creator.v2 = (lammpsplugin_factory2 *) &create_fix<FixClusterBreakMerge>;
-  register_style(&plugin, lmp);
-
-  plugin.name = "cluster/timestep";
-  plugin.info = "time step that rejects and halves";
-  plugin.creator.v2 = (lammpsplugin_factory2 *) &create_fix<FixClusterTimestep>;
-  register_style(&plugin, lmp);
+  const struct {
+    const char *name, *info;
+    lammpsplugin_factory2 *create;
+  } fixes[] = {
+      {"drag/cluster", "gas drag on particle clusters", &create_fix<FixDragCluster>},
+      {"cluster/breakmerge", "size, breakup and merging of particle clusters", &create_fix<FixClusterBreakMerge>},
+      {"cluster/timestep", "time step that rejects and halves", &create_fix<FixClusterTimestep>},
+      {"nve/cluster", "motion of particle clusters, with gravity and held drag in one pass", &create_fix<FixNVECluster>},
+  };
+  for (const auto &fix : fixes) {
+    plugin.name = fix.name;
+    plugin.info = fix.info;
+    plugin.creator.v2 = fix.create;
+    register_style(&plugin, lmp);
+  }
 
   plugin.style = "pair";
   plugin.name = "gran/cluster";

@@ -5,6 +5,7 @@
 #include "fix_drag_cluster.h"
 
 #include "fix_cluster_breakmerge.h"
+#include "four_clusters.h"
 #include "model/drag_table.h"
 #include "style_arguments.h"
 
@@ -37,7 +38,7 @@ FixDragCluster::FixDragCluster(LAMMPS *lmp, int narg, char **arg) :
     cells{1, 1, 1}, period(0.0), seed(0), period_now(0),
     inverse_length{0.0, 0.0, 0.0}, draw(nullptr),
     acts_along{true, true, true}, unshielded(0.0), particle_d(0.0), particle_mass(0.0),
-    particle_given(false), exponential(false), refresh(1), held_dt(0.0), peratom_rows(0),
+    particle_given(false), exponential(false), refresh(1), held_dt(0.0), handed_over(false), peratom_rows(0),
     shortest_tau(INFINITY), totals{}, totals_all{}, totals_current(false)
 {
   dynamic_group_allow = 1;
@@ -274,6 +275,10 @@ Vec3 FixDragCluster::in_plane(const Vec3 &force) const
 
 void FixDragCluster::post_force(int)
 {
+  if (handed_over) {
+    handed_over = false;
+    return;
+  }
   for (double &t : totals) t = 0.0;
   totals_current = false;
   const bool finite = due() ? add_drag_anew() : add_held_drag();
@@ -297,7 +302,10 @@ bool FixDragCluster::add_drag_anew()
     memory->destroy(array_atom);
     memory->create(array_atom, peratom_rows, COLUMNS, "drag/cluster:array_atom");
   }
-  if (refresh > 1 && static_cast<int>(held.size()) < atom->nmax) held.resize(atom->nmax);
+  if (refresh > 1 && static_cast<int>(held_b.size()) < atom->nmax) {
+    held_u.resize(3 * static_cast<std::size_t>(atom->nmax));
+    held_b.resize(atom->nmax);
+  }
   held_dt = update->dt;
   shortest_tau = INFINITY;
   bool finite = true;
@@ -340,14 +348,14 @@ bool FixDragCluster::add_drag(int first, int last)
     double *row = array_atom[i];
     if (!(mask[i] & groupbit)) {
       memset(row, 0, sizeof(double) * COLUMNS);
-      if (refresh > 1) held[i] = {};
+      if (refresh > 1) hold(i, {0.0, 0.0, 0.0}, 0.0);
       continue;
     }
     const double tau = b[m] > 0.0 ? rmass[i] / b[m] : INFINITY;
     shortest_tau = MIN(shortest_tau, tau);
     const double coefficient = exponential ? b[m] * exponential_factor(dt / tau) : b[m];
     const Vec3 drag = coefficient * slip[m];
-    if (refresh > 1) held[i] = {u[m], coefficient};
+    if (refresh > 1) hold(i, u[m], coefficient);
     for (int k = 0; k < 3; k++) {
       f[i][k] += drag[k];
       sum[k] += drag[k];
@@ -373,17 +381,47 @@ bool FixDragCluster::due() const
       held_dt != update->dt;
 }
 
+void FixDragCluster::hold(int i, const Vec3 &u, double b)
+{
+  for (int k = 0; k < 3; k++) held_u[3 * i + k] = u[k];
+  held_b[i] = b;
+}
+
+bool FixDragCluster::hand_over()
+{
+  handed_over = !due();
+  return handed_over;
+}
+
 bool FixDragCluster::add_held_drag()
 {
   if (any_variable()) modify->addstep_compute(update->ntimestep + 1);    // the lists may be rebuilt at any step
   const int nlocal = atom->nlocal;
   const double *v = nlocal ? atom->v[0] : nullptr;
   double *f = nlocal ? atom->f[0] : nullptr;
-  double force[3] = {0.0, 0.0, 0.0}, power = 0.0;
   const Vec3 along = in_plane({1.0, 1.0, 1.0});
-  for (int i = 0; i < nlocal; i++)
+  double force[3] = {0.0, 0.0, 0.0}, power = 0.0;
+  int i = 0;
+#ifdef CLUSTER_PACKS
+  const Fourfold along_all(along);
+  Pack forces[3] = {}, powers = {};
+  for (; i + 4 <= nlocal; i += 4) {
+    const Threefold b(load(&held_b[i]));
+    for (int part = 0; part < 3; part++) {
+      const int m = 3 * i + 4 * part;
+      const Pack speed = load(v + m);
+      const Pack drag = held_drag(along_all.part[part], b.part[part], load(&held_u[m]), speed);
+      store(f + m, load(f + m) + drag);
+      forces[part] += drag;
+      powers += drag * speed;
+    }
+  }
+  for (int m = 0; m < 12; m++) force[m % 3] += forces[m / 4][m % 4];
+  for (int m = 0; m < 4; m++) power += powers[m];
+#endif
+  for (; i < nlocal; i++)
     for (int k = 0; k < 3; k++) {
-      const double drag = along[k] * held[i].b * (held[i].u[k] - v[3 * i + k]);
+      const double drag = held_drag(along[k], held_b[i], held_u[3 * i + k], v[3 * i + k]);
       f[3 * i + k] += drag;
       force[k] += drag;
       power += drag * v[3 * i + k];
@@ -474,5 +512,6 @@ double FixDragCluster::compute_vector(int n)
 double FixDragCluster::memory_usage()
 {
   return (double) peratom_rows * COLUMNS * sizeof(double) + (double) cache.size() * sizeof(CachedFluctuation) +
+      (double) (held_u.size() + held_b.size()) * sizeof(double) +
       (double) nmax_velocity * 3 * sizeof(double) + (draw ? (double) atom->nmax * sizeof(int) : 0.0);
 }

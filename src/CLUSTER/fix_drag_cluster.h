@@ -49,6 +49,14 @@ class FixDragCluster : public Fix {
   const ClusterDEM::DragLaw &drag_law() const { return *law; }
   const ClusterDEM::Gas &gas_properties() const { return gas; }
 
+  // Between two refreshes fix nve/cluster can take the drag into its own pass: true if it is held at this step, and is
+  // then left to the caller.
+  bool hand_over();
+  const double *held_velocity() const { return held_u.data(); }       // 3 per cluster
+  const double *held_coefficient() const { return held_b.data(); }    // 1 per cluster
+  bool add_held_drag();
+  bool any_variable() const;
+
   // a newborn or changed cluster sees a new fluctuation of its own
   void redraw(int i);
 
@@ -95,13 +103,9 @@ class FixDragCluster : public Fix {
 
   // gas velocity and coefficient are held for so many steps
   int refresh;
-  struct Held {
-    ClusterDEM::Vec3 u;
-    double b;
-  };
-  std::vector<Held> held;
+  std::vector<double> held_u, held_b;
   double held_dt;                      // step that the coefficients are made for
-
+  bool handed_over;                    // the drag of this step is somebody else's
 
   int peratom_rows;                    // rows that array_atom has room for
   double shortest_tau;                 // relaxation time on this rank, this step
@@ -115,11 +119,10 @@ class FixDragCluster : public Fix {
   void parse_profile(StyleArguments &);
   void find_primary_particle();
   ClusterDEM::Vec3 fluctuation_of(int i);
-  bool any_variable() const;
   bool due() const;
+  void hold(int i, const ClusterDEM::Vec3 &u, double b);
   bool add_drag_anew();
   bool add_drag(int first, int last);
-  bool add_held_drag();
 };
 
 }    // namespace LAMMPS_NS

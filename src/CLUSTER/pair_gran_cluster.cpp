@@ -12,6 +12,7 @@
 #include "fix_neigh_history.h"
 #include "force.h"
 #include "neigh_list.h"
+#include "neighbor.h"
 #include "update.h"
 
 #include <cstring>
@@ -185,63 +186,67 @@ template <bool ROTATE, bool FRICTION> void PairGranCluster::compute_contacts()
   const int nlocal = atom->nlocal;
   const bool moving = !update->setupflag;    // set-up evaluates the same instant again
   const bool recording = recorded_step >= 0;
+  if (neighbor->ago == 0 || update->setupflag) flatten_list();
 
+  for (const auto &[i, j, slot] : near) {
+    const double dx = x[i][0] - x[j][0], dy = x[i][1] - x[j][1], dz = x[i][2] - x[j][2];
+    const double rsq = dx * dx + dy * dy + dz * dz;
+    const double reach = radius[i] + radius[j];
+    int *touch = FRICTION ? fix_history->firstflag[i] + slot : nullptr;
+    double *s = FRICTION ? fix_history->firstvalue[i] + HISTORY * slot : nullptr;
+    if (rsq >= reach * reach) {
+      if (FRICTION && *touch) {
+        if (undoable) changes.push_back({touch, s, *touch, to_vec3(s)});
+        *touch = 0;
+        s[0] = s[1] = s[2] = 0.0;
+      }
+      continue;
+    }
+
+    Touching c = look_at<ROTATE>(i, j, rsq);
+    double energy = law.normal_energy(c.overlap);
+    if (FRICTION) {
+      if (undoable) changes.push_back({touch, s, *touch, to_vec3(s)});
+      *touch = 1;
+      Vec3 displacement = to_vec3(s);
+      if (moving) displacement = turn_into_plane(displacement, c.n) + dt * c.slip;
+      c.friction = law.friction(c.overlap, c.f_n, c.eta, c.slip, displacement);
+      if (moving)
+        for (int k = 0; k < 3; k++) s[k] = displacement[k];
+      energy += law.tangential_energy(c.overlap, c.f_n, displacement);
+    }
+    const Vec3 force = c.force();
+    const double force_sq = dot(force, force);
+    if (!std::isfinite(force_sq))
+      error->one(FLERR, "Pair style gran/cluster: the contact force of clusters {} and {} is not finite at step {}: "
+                 "their centres are {} apart and their relative speed is {}",
+                 atom->tag[i], atom->tag[j], update->ntimestep, c.r, norm(c.velocity));
+
+    const bool both = this->force->newton_pair || j < nlocal;
+    const double share = both ? 1.0 : 0.5;
+    elastic += share * energy;
+    const double speed_sq = dot(c.velocity, c.velocity);
+    restless.strongest = MAX(restless.strongest, std::sqrt(force_sq) / MIN(atom->rmass[i], atom->rmass[j]));
+    restless.swing += share * law.k_n * (0.5 * speed_sq + energy / c.m);
+    if (FRICTION)
+      restless.creep += share * (energy - law.normal_energy(c.overlap)) * std::sqrt(speed_sq) / c.overlap;
+    if (recording) recorded.push_back({i, j, dot(force, c.velocity)});
+    add_force<ROTATE>(i, j, c);
+    if (evflag)
+      ev_tally_xyz(i, j, nlocal, this->force->newton_pair, energy, 0.0, force[0], force[1], force[2], dx, dy, dz);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   Few clusters have a neighbor at all: the pairs in one row spare a look at each of the others, every step.
+------------------------------------------------------------------------- */
+
+void PairGranCluster::flatten_list()
+{
+  near.clear();
   for (int ii = 0; ii < list->inum; ii++) {
     const int i = list->ilist[ii];
-    const int *jlist = list->firstneigh[i];
-    const int jnum = list->numneigh[i];
-    int *touch = FRICTION ? fix_history->firstflag[i] : nullptr;
-    double *displacements = FRICTION ? fix_history->firstvalue[i] : nullptr;
-    const double xi = x[i][0], yi = x[i][1], zi = x[i][2], ri = radius[i];
-
-    for (int jj = 0; jj < jnum; jj++) {
-      const int j = jlist[jj] & NEIGHMASK;
-      const double dx = xi - x[j][0], dy = yi - x[j][1], dz = zi - x[j][2];
-      const double rsq = dx * dx + dy * dy + dz * dz;
-      const double reach = ri + radius[j];
-      if (rsq >= reach * reach) {
-        if (FRICTION && touch[jj]) {
-          double *s = displacements + HISTORY * jj;
-          if (undoable) changes.push_back({touch + jj, s, touch[jj], to_vec3(s)});
-          touch[jj] = 0;
-          s[0] = s[1] = s[2] = 0.0;
-        }
-        continue;
-      }
-
-      Touching c = look_at<ROTATE>(i, j, rsq);
-      double energy = law.normal_energy(c.overlap);
-      if (FRICTION) {
-        double *s = displacements + HISTORY * jj;
-        if (undoable) changes.push_back({touch + jj, s, touch[jj], to_vec3(s)});
-        touch[jj] = 1;
-        Vec3 displacement = to_vec3(s);
-        if (moving) displacement = turn_into_plane(displacement, c.n) + dt * c.slip;
-        c.friction = law.friction(c.overlap, c.f_n, c.eta, c.slip, displacement);
-        if (moving)
-          for (int k = 0; k < 3; k++) s[k] = displacement[k];
-        energy += law.tangential_energy(c.overlap, c.f_n, displacement);
-      }
-      const Vec3 force = c.force();
-      const double force_sq = dot(force, force);
-      if (!std::isfinite(force_sq))
-        error->one(FLERR, "Pair style gran/cluster: the contact force of clusters {} and {} is not finite at step {}: "
-                   "their centres are {} apart and their relative speed is {}",
-                   atom->tag[i], atom->tag[j], update->ntimestep, c.r, norm(c.velocity));
-
-      const bool both = this->force->newton_pair || j < nlocal;
-      const double share = both ? 1.0 : 0.5;
-      elastic += share * energy;
-      const double speed_sq = dot(c.velocity, c.velocity);
-      restless.strongest = MAX(restless.strongest, std::sqrt(force_sq) / MIN(atom->rmass[i], atom->rmass[j]));
-      restless.swing += share * law.k_n * (0.5 * speed_sq + energy / c.m);
-      if (FRICTION)
-        restless.creep += share * (energy - law.normal_energy(c.overlap)) * std::sqrt(speed_sq) / c.overlap;
-      if (recording) recorded.push_back({i, j, dot(force, c.velocity)});
-      add_force<ROTATE>(i, j, c);
-      if (evflag)
-        ev_tally_xyz(i, j, nlocal, this->force->newton_pair, energy, 0.0, force[0], force[1], force[2], dx, dy, dz);
-    }
+    for (int slot = 0; slot < list->numneigh[i]; slot++) near.push_back({i, list->firstneigh[i][slot] & NEIGHMASK, slot});
   }
 }
 
@@ -340,5 +345,5 @@ void PairGranCluster::read_restart_settings(FILE *fp)
 double PairGranCluster::memory_usage()
 {
   return PairGranHookeHistory::memory_usage() + (double) changes.capacity() * sizeof(Change) +
-      (double) recorded.capacity() * sizeof(Contact);
+      (double) recorded.capacity() * sizeof(Contact) + (double) near.capacity() * sizeof(NearPair);
 }

@@ -74,7 +74,13 @@ class PairGranCluster : public PairGranHookeHistory {
   bool undoable;
   std::vector<Change> changes;
 
+  struct NearPair {
+    int i, j, slot;    // j is that entry of i's neighbors
+  };
+  std::vector<NearPair> near;    // the neighbor list in one row
+
   struct Touching;    // one pair in contact, its force
+  void flatten_list();
   template <bool ROTATE> Touching look_at(int i, int j, double rsq) const;
   template <bool ROTATE, bool FRICTION> void compute_contacts();
   template <bool ROTATE> void add_force(int i, int j, const Touching &);

@@ -30,7 +30,7 @@ def fixes(every: int = 5, options: str = "", gas: str = GAS) -> str:
 
 def outputs() -> str:
     return (
-        'fix table all ave/time 1 1 50 f_size[*] mode scalar file out.txt format " %.17g"\n'
+        'fix table all ave/time 50 1 50 f_size[*] mode scalar file out.txt format " %.17g"\n'
         "thermo 500\nthermo_modify lost error\n"
     )
 

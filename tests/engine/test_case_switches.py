@@ -39,7 +39,8 @@ def test_another_model_gives_another_run_of_the_same_solids(tmp_path, default, s
 @pytest.mark.parametrize(
     "switches, line",
     [
-        ({"motion": "nve/sphere"}, "fix          move all nve/sphere\n"),
+        ({"motion": "nve/sphere"}, "fix move all nve/sphere\n"),
+        ({"motion": "nve/cluster"}, "fix move all nve/cluster gravity 9.81 0 0 -1 drag drag\n"),
         ({"contact": "linear"}, "gran/cluster 10.0 0.3 0.33 tangential linear cutoff"),
         ({"contact": "frictionless"}, "gran/cluster 10.0 0.3 0.0 tangential none cutoff"),
     ],
@@ -71,7 +72,7 @@ def test_height_takes_solids_along(tmp_path):
 
 def test_what_is_switched_off_is_not_there(tmp_path):
     _, last, log = case1(tmp_path, gravity=0, ncc=0, merge="no")
-    assert not last["N_cc"].any() and "fix fall" not in log.replace('then "fix fall', "")
+    assert not last["N_cc"].any() and "fix fall" not in log.replace('then "fix fall', "")  # the line itself
 
 
 def test_digits(tmp_path):

@@ -49,6 +49,13 @@ COMMANDS = {
             "merge 0.2", "refused break", "gravity 9.81 z", "claim 2.5e-3", "plane none", "spacing 2",
         ),
     ),
+    "nve": Command(
+        start="fix move all nve/cluster",
+        required="",
+        keywords=("gravity 9.81 0 0 -1", "gravity -1 1 1 1", "gravity 0 1 0 0", "drag drag"),
+        before="unfix move\n",
+        after=GAS + SIZE,
+    ),
     "pair_style": Command(
         start="pair_style gran/cluster",
         required="10 0.3 0.33",

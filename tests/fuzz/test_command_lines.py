@@ -30,8 +30,8 @@ SCENE = (
 
 # an error found when a run begins names who found it, and a cause that is not of one word
 AT_RUN_TIME = (
-    "Fix drag/cluster drag", "Fix cluster/breakmerge size", "Fix cluster/timestep step", "Pair style gran/cluster",
-    "Variable ",
+    "Fix drag/cluster drag", "Fix cluster/breakmerge size", "Fix cluster/timestep step", "Fix nve/cluster move",
+    "Pair style gran/cluster", "Variable ",
 )
 # numbers are taken at their word: what a gas of 1e300 kg/m3, or a cutoff of as many metres, does is for LAMMPS to say
 ENGINE = ("Lost atoms", "Non-numeric atom coords", "out of range atoms", "Non-numeric box", "Cannot use neighbor bins")

@@ -320,6 +320,15 @@ TEST(Benchmark, ExponentialStepReachesTheSameTerminalVelocity)
   EXPECT_NEAR(v, 0.4, 0.4 * std::exp(-x) + 4.0 * EPS); // the closed form, and rounding
 }
 
+// ---- held_drag ----
+
+TEST(HeldDrag, FollowsTheSlipOnlyAlongItsDirections)
+{
+  EXPECT_EQ(held_drag(1.0, 2.0e-6, 3.0, -1.0), 8.0e-6);
+  EXPECT_EQ(held_drag(0.0, 2.0e-6, 3.0, -1.0), 0.0);
+  EXPECT_EQ(held_drag(1.0, 2.0e-6, 1.5, 1.5), 0.0);
+}
+
 // ---- exponential_factor ----
 
 TEST(ExponentialFactor, Limits)

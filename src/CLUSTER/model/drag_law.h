@@ -136,6 +136,13 @@ inline double cluster_drag_coefficient(const DragLaw &law, const Gas &gas, doubl
   return b;
 }
 
+// One component of the drag at a coefficient b that is held for some steps; `along` is 1 where drag acts, else 0.
+// For numbers and for packs of them.
+template <typename Number> inline Number held_drag(const Number &along, const Number &b, const Number &u_g, const Number &v)
+{
+  return along * b * (u_g - v);
+}
+
 // Factor that turns an explicit drag force into the one whose impulse over a step dt equals the
 // exponential relaxation to the gas velocity at constant b: (1 - exp(-dt/tau)) / (dt/tau),
 // tau = m/b. The velocity never passes the gas velocity, whatever dt/tau.
