@@ -26,7 +26,6 @@ using namespace FixConst;
 using namespace ClusterDEM;
 
 static constexpr int COLUMNS = 6;
-static constexpr int OUTPUTS = 11;
 static constexpr double MOST_SITES = 1.0e7;    // of a lattice for fragments: 0.4 GB
 
 /* ---------------------------------------------------------------------- */
@@ -37,23 +36,23 @@ FixClusterBreakMerge::FixClusterBreakMerge(LAMMPS *lmp, int narg, char **arg) :
     nst(NstReading::PARTICLE), nsmf(NsmfReading::EMMS), up(UpReading::OWN), ncc_factor(1.0),
     term_st(true), term_cc(true), term_mf(true), test(ALWAYS), hysteresis(0.26), breaking(true),
     merging(true), break_refused(false), merge_tolerance(0.01), gravity(9.81), gravity_axis(2),
-    claim_max(0.0), planar(true), spacing(2.0), k(0.0), u_mf(0.0), drag(nullptr), pairs(lmp),
+    claim_max(0.0), planar(true), spacing(2.0), rule{}, u_mf(0.0), drag(nullptr), pairs(lmp),
     count(nullptr), nmax_check(0), stable(nullptr), power(nullptr), ncontacts(nullptr),
-    suitor(nullptr), room(nullptr), proceeds(nullptr), comm_stage(CONTACTS), totals{},
-    newborn_tags(lmp), output{}, output_step(-1)
+    suitor(nullptr), needs(nullptr), room(nullptr), proceeds(nullptr), comm_stage(CONTACTS), totals{},
+    newborn_tags(lmp), forces{}, output{}, output_step(-1)
 {
   force_reneighbor = 1;
   next_reneighbor = -1;
   restart_global = 1;
   create_attribute = 1;
   vector_flag = 1;
-  size_vector = OUTPUTS;
+  size_vector = sizeof(output) / sizeof(output[0]);
   global_freq = 1;
   extvector = 0;
   peratom_flag = 1;
   size_peratom_cols = COLUMNS;
   peratom_freq = 1;
-  comm_forward = 4;
+  comm_forward = 5;
   comm_reverse = 3;
   dynamic_group_allow = 0;
 
@@ -233,13 +232,14 @@ void FixClusterBreakMerge::init()
   find_drag();
   u_mf = umf_from_wen_yu && drag
       ? umf_wen_yu(geometry.d_p, geometry.rho_p, drag->gas_properties(), gravity) : umf_value;
-  k = k_from_emms ? k_emms(geometry.d_p, k_value, u_mf, eps_mf, gravity) : k_value;
+  const double k = k_from_emms ? k_emms(geometry.d_p, k_value, u_mf, eps_mf, gravity) : k_value;
   if (!(k > 0.0))
     error->all(FLERR, "{}: K emms {} gives K = {}: U_p must be above {} (so that U_p/(1 - 0.9997) exceeds "
                "the minimum fluidization)", me, k_value, k, u_mf * 3.0e-4);
+  rule = {k, hysteresis, geometry, limits};
 
   pairs.find(me, groupbit, geometry.diameter(limits.hi));
-  pairs.expect_contacts(next_check(update->ntimestep));
+  if (looks_at_contacts()) pairs.expect_contacts(next_check(update->ntimestep));
   check_room();
   const double finest = spacing * geometry.diameter(limits.lo);
   const double sites = ClusterDEM::Lattice::sites_within(planar, claim_max / finest + 1.0);
@@ -364,15 +364,18 @@ void FixClusterBreakMerge::post_integrate()
   dying.clear();
   if (update->ntimestep % nevery) return;
 
-  comm->forward_comm();    // clusters have moved, their ghosts have not
+  // clusters have moved, their ghosts have not
+  if (looks_at_contacts()) comm->forward_comm();
   measure();
-  pairs.expect_contacts(next_check(update->ntimestep));
+  for (int k = 0; k < NFORCES; k++) totals[DRAG_FORCE + k] += forces[k];
+  if (looks_at_contacts()) pairs.expect_contacts(next_check(update->ntimestep));
   if (breaking) propose_breaks();
   if (merging) propose_merges();
 
   int mine = static_cast<int>(events.size()), all = 0;
   MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MAX, world);
   if (all == 0) return;
+  if (!looks_at_contacts()) comm->forward_comm();
   make_room();
   arbitrate();
   mark_dying();
@@ -384,7 +387,7 @@ void FixClusterBreakMerge::post_integrate()
 
 /* ----------------------------------------------------------------------
    clusters, particles, breakups, merges, fragments born, births deferred or shifted,
-   energy lost in merges, energy put in by births, min, mean, max d
+   energy lost in merges, energy put in by births, min, mean, max d; the other totals
 ------------------------------------------------------------------------- */
 
 double FixClusterBreakMerge::compute_vector(int n)
@@ -407,10 +410,11 @@ double FixClusterBreakMerge::compute_vector(int n)
     MPI_Allreduce(most, most_all, 2, MPI_DOUBLE, MPI_MAX, world);
     output[0] = all[0];
     output[1] = all[1];
-    memcpy(output + 2, all + 3, sizeof(totals));
+    memcpy(output + 2, all + 3, TESTS * sizeof(double));
     output[8] = all[0] > 0.0 ? -most_all[0] : 0.0;
     output[9] = all[0] > 0.0 ? all[2] / all[0] : 0.0;
     output[10] = most_all[1];
+    memcpy(output + 11, all + 3 + TESTS, (NTOTALS - TESTS) * sizeof(double));
   }
   return output[n];
 }
@@ -420,7 +424,7 @@ double FixClusterBreakMerge::compute_vector(int n)
 double FixClusterBreakMerge::memory_usage()
 {
   double bytes = (double) atom->nmax * (COLUMNS * sizeof(double) + sizeof(int));
-  bytes += (double) nmax_check * (3 * sizeof(int) + 5 * sizeof(double) + sizeof(Suitor));
+  bytes += (double) nmax_check * (4 * sizeof(int) + 5 * sizeof(double) + sizeof(Suitor));
   if (averages) bytes += averages->memory_usage();
   return bytes;
 }

@@ -14,6 +14,7 @@ FixStyle(cluster/breakmerge,FixClusterBreakMerge);
 #include "fix.h"
 
 #include "granular_pairs.h"
+#include "model/decisive_terms.h"
 #include "model/merging.h"
 #include "model/placement.h"
 #include "model/size_law.h"
@@ -96,7 +97,8 @@ class FixClusterBreakMerge : public Fix {
   double spacing;
 
   // ---- what init() finds or derives
-  double k, u_mf;
+  ClusterDEM::SizeRule rule;
+  double u_mf;
   FixDragCluster *drag;
   GranularPairs pairs;
   std::unique_ptr<CellAverages> averages;
@@ -120,6 +122,8 @@ class FixClusterBreakMerge : public Fix {
       return slip < other.slip || (slip == other.slip && tag < other.tag);
     }
   } *suitor;
+  int *needs;                                    // terms without which the merge would be refused: bits
+  enum { NEEDS_ST = 1, NEEDS_MF = 2 };
   double **room;                                 // claim: radius, centre relative to the cluster
   int *proceeds;
   std::vector<std::vector<tagint>> touching_tags;
@@ -136,15 +140,22 @@ class FixClusterBreakMerge : public Fix {
     double energy_lost = 0.0;         // kinetic energy that the merge takes out
     double energy_born = 0.0;         // elastic energy that the merged cluster puts in
     double reach = 0.0;               // how far to look for others
+    int needs = 0;                    // of either partner
   };
   std::vector<Event> events;
   std::vector<int> dying;    // owned partners of proceeding merges
 
   // ---- totals since the fix was defined, on this rank
-  enum { BREAKUPS, MERGES, BORN, DEFERRED, E_LOST, E_BORN, NTOTALS };
+  enum {
+    BREAKUPS, MERGES, BORN, DEFERRED, E_LOST, E_BORN,
+    TESTS, SHARE_ST, SHARE_CC, SHARE_MF, BREAKUPS_BY_ST, BREAKUPS_BY_CC, WHOLE_BY_ST, WHOLE_BY_MF, MERGES_BY_ST,
+    MERGES_BY_MF, DRAG_FORCE, CONTACT_FORCE, WEIGHT, NTOTALS
+  };
+  static constexpr int NFORCES = NTOTALS - DRAG_FORCE;
   double totals[NTOTALS];
   NewbornTags newborn_tags;
-  double output[11];
+  double forces[NFORCES];    // sums over my clusters at the last check
+  double output[5 + NTOTALS];
   bigint output_step;
 
   bigint next_check(bigint step) const;    // the first check after it
@@ -156,6 +167,8 @@ class FixClusterBreakMerge : public Fix {
 
   // fix_cluster_breakmerge_check.cpp: what holds now
   int particle_count(int i);
+  bool looks_at_power() const { return term_cc && ncc_factor > 0.0; }
+  bool looks_at_contacts() const { return looks_at_power() || merging || test != ALWAYS; }
   void size_scratch();
   void free_scratch();
   void check_finite();
@@ -175,6 +188,12 @@ class FixClusterBreakMerge : public Fix {
   void arbitrate();
   void mark_dying();
   ClusterDEM::Body body_of(int i) const;
+
+  // fix_cluster_breakmerge_needs.cpp: which terms decide
+  ClusterDEM::PowerParts power_parts(int i) const;
+  void note_whole(int i);
+  void note_breakup(int i);
+  int needed_to_merge(int i, int n) const;
 
   // fix_cluster_breakmerge_apply.cpp: the events themselves
   void become(int i, int n, const ClusterDEM::Vec3 &x, const ClusterDEM::Vec3 &v);

@@ -46,12 +46,15 @@ void FixClusterBreakMerge::pre_exchange()
       totals[MERGES]++;
       totals[E_LOST] += e.energy_lost;
       totals[E_BORN] += e.energy_born;
+      if (e.needs & NEEDS_ST) totals[MERGES_BY_ST]++;
+      if (e.needs & NEEDS_MF) totals[MERGES_BY_MF]++;
       if (atom->omega_flag)
         for (int axis = 0; axis < 3; axis++) atom->omega[e.i][axis] = e.omega[axis];
     }
     if (pieces > 1) {
       totals[BREAKUPS]++;
       totals[BORN] += pieces;
+      if (e.j < 0) note_breakup(e.i);
       create_fragments(e, births[birth++].first);
     } else
       become(e.i, e.plan.n, e.body.x, e.body.v);

@@ -57,6 +57,7 @@ void FixClusterBreakMerge::free_scratch()
   memory->destroy(power);
   memory->destroy(ncontacts);
   memory->sfree(suitor);
+  memory->destroy(needs);
   memory->destroy(room);
   memory->destroy(proceeds);
 }
@@ -70,6 +71,7 @@ void FixClusterBreakMerge::size_scratch()
   memory->create(power, nmax_check, "cluster/breakmerge:power");
   memory->create(ncontacts, nmax_check, "cluster/breakmerge:ncontacts");
   suitor = (Suitor *) memory->smalloc(nmax_check * sizeof(Suitor), "cluster/breakmerge:suitor");
+  memory->create(needs, nmax_check, "cluster/breakmerge:needs");
   memory->create(room, nmax_check, 4, "cluster/breakmerge:room");
   memory->create(proceeds, nmax_check, "cluster/breakmerge:proceeds");
 }
@@ -98,26 +100,30 @@ void FixClusterBreakMerge::measure()
   check_finite();
   for (int i = 0; i < atom->nlocal; i++)
     if (atom->mask[i] & groupbit) particle_count(i);
-  add_up_contacts();
-  if (drag) drag->prepare();
+  for (double &force : forces) force = 0.0;
+  if (looks_at_contacts()) add_up_contacts();
+  if (term_st) drag->prepare();
   if (averages) average_cells();
   find_stable_sizes();
 }
 
 /* ----------------------------------------------------------------------
    power of the contact forces and number of contacts; with newton on, half of the pairs across ranks
-   are known to the other side alone
+   are known to the other side alone. Nothing is summed or sent that nobody asks for.
 ------------------------------------------------------------------------- */
 
 void FixClusterBreakMerge::add_up_contacts()
 {
   const int nlocal = atom->nlocal;
   const int nall = nlocal + atom->nghost;
-  const bool want_power = term_cc && ncc_factor > 0.0;
+  const bool want_power = looks_at_power();
+  const bool want_sums = want_power || test == IN_CONTACT;
   const bool want_tags = test == CONTACT_ENDED;
 
-  std::fill(power, power + nall, 0.0);
-  std::fill(ncontacts, ncontacts + nall, 0);
+  if (want_sums) {
+    std::fill(power, power + nall, 0.0);
+    std::fill(ncontacts, ncontacts + nall, 0);
+  }
   if (want_tags) {
     touching_tags.resize(MAX(static_cast<std::size_t>(nall), touching_tags.size()));
     for (int i = 0; i < nall; i++) touching_tags[i].clear();
@@ -126,20 +132,26 @@ void FixClusterBreakMerge::add_up_contacts()
   pairs.find_contacts();
   for (const auto &contact : pairs.contacts()) {
     const int i = contact.i, j = contact.j;
-    // F_ij . (V_i - V_j), the same for both
-    const double p = want_power ? pairs.power(contact) : 0.0;
     const bool both = force->newton_pair || j < nlocal;
-    power[i] += p;
-    ncontacts[i]++;
-    if (want_tags) touching_tags[i].push_back(atom->tag[j]);
-    if (both) {
-      power[j] += p;
-      ncontacts[j]++;
-      if (want_tags) touching_tags[j].push_back(atom->tag[i]);
+    GranularPairs::Load load = {0.0, 0.0};
+    if (want_power || contact.noted) load = pairs.load(contact);
+    forces[CONTACT_FORCE - DRAG_FORCE] +=
+        load.force * ((atom->mask[i] & groupbit ? 1 : 0) + (both && atom->mask[j] & groupbit ? 1 : 0));
+    if (want_sums) {
+      power[i] += load.power;
+      ncontacts[i]++;
+      if (both) {
+        power[j] += load.power;
+        ncontacts[j]++;
+      }
+    }
+    if (want_tags) {
+      touching_tags[i].push_back(atom->tag[j]);
+      if (both) touching_tags[j].push_back(atom->tag[i]);
     }
   }
   if (!force->newton_pair) return;
-  exchange(CONTACTS, 2);
+  if (want_sums) exchange(CONTACTS, 2);
   if (want_tags) {
     comm_stage = TAGS;
     comm->reverse_comm_variable(this);
@@ -157,7 +169,7 @@ void FixClusterBreakMerge::average_cells()
     const Vec3 v = to_vec3(atom->v[i]);
     averages->add(x, CellAverages::MASS, atom->rmass[i]);
     averages->add(x, CellAverages::MASS_SPEED, atom->rmass[i] * std::fabs(v[gravity_axis]));
-    if (drag) {
+    if (term_st && nst == NstReading::CELL) {
       const Vec3 u = drag->gas_velocity(i);
       const Vec3 slip = drag->in_plane(u - v);
       averages->add(x, CellAverages::DRAG_POWER, dot(drag->cluster_coefficient(i, norm(slip)) * slip, u));
@@ -171,28 +183,33 @@ void FixClusterBreakMerge::average_cells()
 void FixClusterBreakMerge::find_stable_sizes()
 {
   const double particle_mass = geometry.particle_mass();
+  double drag_force = 0.0, mass = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) {
-      stable[i] = 0;
+      stable[i] = needs[i] = 0;
       continue;
     }
     const double *x = atom->x[i];
     const Vec3 v = to_vec3(atom->v[i]);
     double gas = 0.0, contacts = 0.0, fluidization = 0.0;
 
-    if (term_st && nst == NstReading::CELL)
-      gas = averages->total(x, CellAverages::DRAG_POWER) / averages->total(x, CellAverages::MASS);
-    else if (term_st) {
+    if (term_st) {
       const Vec3 u = drag->gas_velocity(i);
       const Vec3 slip = drag->in_plane(u - v);
       const double speed = norm(slip);
-      const bool single = nst == NstReading::PARTICLE;
-      const double b = single
-          ? drag_coefficient(drag->drag_law(), drag->gas_properties(), geometry.d_p, speed)
-          : drag->cluster_coefficient(i, speed);
-      gas = n_st(b * slip, u, single ? particle_mass : atom->rmass[i]);
+      const double b = drag->cluster_coefficient(i, speed);
+      drag_force += b * speed;
+      if (nst == NstReading::CELL)
+        gas = averages->total(x, CellAverages::DRAG_POWER) / averages->total(x, CellAverages::MASS);
+      else if (nst == NstReading::CLUSTER)
+        gas = n_st(b * slip, u, atom->rmass[i]);
+      else {
+        const double single = drag_coefficient(drag->drag_law(), drag->gas_properties(), geometry.d_p, speed);
+        gas = n_st(single * slip, u, particle_mass);
+      }
     }
-    if (term_cc) contacts = n_cc(power[i], atom->rmass[i], ncc_factor);
+    if (looks_at_power()) contacts = n_cc(power[i], atom->rmass[i], ncc_factor);
+    mass += atom->rmass[i];
     if (term_mf) {
       double speed = std::fabs(v[gravity_axis]);
       if (up != UpReading::OWN) {
@@ -203,14 +220,17 @@ void FixClusterBreakMerge::find_stable_sizes()
       fluidization = n_smf(nsmf, u_mf, speed, eps_mf, gravity);
     }
 
-    const StableSize size = stable_size(k, gas + contacts - fluidization, geometry, limits);
+    const StableSize size = rule.stable(gas + contacts - fluidization);
     stable[i] = size.n;
+    needs[i] = 0;
     double *row = array_atom[i];
     row[2] = size.l;
     row[3] = gas;
     row[4] = contacts;
     row[5] = fluidization;
   }
+  forces[0] = drag_force;
+  forces[WEIGHT - DRAG_FORCE] = mass * gravity;
 }
 
 /* ----------------------------------------------------------------------

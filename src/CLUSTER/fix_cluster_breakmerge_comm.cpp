@@ -39,9 +39,10 @@ int FixClusterBreakMerge::pack_forward_comm(int n, int *list, double *buf, int, 
       buf[m++] = ubuf(stable[i]).d;
     } else if (comm_stage == PARTNERS)
       buf[m++] = ubuf(suitor[i].tag).d;
-    else if (comm_stage == CLAIMS)
+    else if (comm_stage == CLAIMS) {
       for (int c = 0; c < 4; c++) buf[m++] = room[i][c];
-    else
+      buf[m++] = ubuf(needs[i]).d;
+    } else
       buf[m++] = ubuf(proceeds[i]).d;
   }
   return m;
@@ -56,9 +57,10 @@ void FixClusterBreakMerge::unpack_forward_comm(int n, int first, double *buf)
       stable[i] = (int) ubuf(buf[m++]).i;
     } else if (comm_stage == PARTNERS)
       suitor[i].tag = (tagint) ubuf(buf[m++]).i;
-    else if (comm_stage == CLAIMS)
+    else if (comm_stage == CLAIMS) {
       for (int c = 0; c < 4; c++) room[i][c] = buf[m++];
-    else
+      needs[i] = (int) ubuf(buf[m++]).i;
+    } else
       proceeds[i] = (int) ubuf(buf[m++]).i;
   }
 }
@@ -184,14 +186,16 @@ int FixClusterBreakMerge::unpack_exchange(int i, double *buf)
 }
 
 /* ----------------------------------------------------------------------
-   restart: totals and the highest ID ever used; particle counts follow from the masses
+   restart: totals and the highest ID ever used; particle counts follow from the masses. The number of totals goes ahead,
+   in bits that no earlier layout has there.
 ------------------------------------------------------------------------- */
 
 void FixClusterBreakMerge::write_restart(FILE *fp)
 {
-  double state[NTOTALS + 1];
-  MPI_Reduce(totals, state, NTOTALS, MPI_DOUBLE, MPI_SUM, 0, world);
-  state[NTOTALS] = ubuf(newborn_tags.highest_used()).d;
+  double state[NTOTALS + 2];
+  state[0] = ubuf(NTOTALS).d;
+  MPI_Reduce(totals, state + 1, NTOTALS, MPI_DOUBLE, MPI_SUM, 0, world);
+  state[NTOTALS + 1] = ubuf(newborn_tags.highest_used()).d;
   if (comm->me == 0) {
     int size = sizeof(state);
     fwrite(&size, sizeof(int), 1, fp);
@@ -201,10 +205,13 @@ void FixClusterBreakMerge::write_restart(FILE *fp)
 
 void FixClusterBreakMerge::restart(char *buf)
 {
-  double state[NTOTALS + 1];
+  double state[NTOTALS + 2];
+  memcpy(state, buf, sizeof(double));
+  if (ubuf(state[0]).i != NTOTALS)
+    error->all(FLERR, "Fix {} {}: the restart file was written by another version of this fix", style, id);
   memcpy(state, buf, sizeof(state));
-  if (comm->me == 0) std::copy(state, state + NTOTALS, totals);
-  newborn_tags.raise((tagint) ubuf(state[NTOTALS]).i);
+  if (comm->me == 0) std::copy(state + 1, state + 1 + NTOTALS, totals);
+  newborn_tags.raise((tagint) ubuf(state[NTOTALS + 1]).i);
 }
 
 int FixClusterBreakMerge::pack_restart(int i, double *buf)

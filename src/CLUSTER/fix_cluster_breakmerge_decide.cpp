@@ -37,12 +37,18 @@ void FixClusterBreakMerge::propose_breaks()
     if (!(atom->mask[i] & groupbit)) continue;
     if (test == IN_CONTACT && ncontacts[i] == 0) continue;
     if (test == CONTACT_ENDED && !contact_ended(i)) continue;
+    totals[TESTS]++;
     const int n = count[i];
-    if (n <= stable[i] || !breaks(array_atom[i][1], array_atom[i][2], hysteresis)) continue;
+    BreakPlan plan;
+    if (n > stable[i] && breaks(array_atom[i][1], array_atom[i][2], hysteresis))
+      plan = plan_breakup(n, stable[i], limits.lo);
+    if (!plan.is_event()) {
+      note_whole(i);
+      continue;
+    }
     Event e;
     e.i = i;
-    e.plan = plan_breakup(n, stable[i], limits.lo);
-    if (!e.plan.is_event()) continue;
+    e.plan = plan;
     e.body = body_of(i);
     events.push_back(std::move(e));
     stable[i] = -stable[i];    // taken: no merge for this one
@@ -61,12 +67,13 @@ void FixClusterBreakMerge::propose_merges()
 
   const tagint *tag = atom->tag;
   for (int i = 0; i < atom->nlocal; i++) {
-    if (suitor[i].tag <= tag[i]) continue;    // none, or the partner leads
+    if (suitor[i].tag == 0) continue;
     const int image = atom->map(suitor[i].tag);
     const int j = image < 0 ? -1 : domain->closest_image(i, image);
     if (j < 0 || suitor[j].tag != tag[i]) continue;
-
     const int n = count[i] + count[j];
+    needs[i] = needed_to_merge(i, n);
+    if (suitor[i].tag < tag[i]) continue;    // the partner leads
     const int n_l = MIN(stable[i], stable[j]);
     const Body a = body_of(i), b = body_of(j);
     Event e;
@@ -209,7 +216,7 @@ void FixClusterBreakMerge::arbitrate()
     r[0] = e.placement.found ? e.placement.reach : 0.0;
     for (int axis = 0; axis < 3; axis++) r[1 + axis] = shift[axis];
   }
-  exchange(CLAIMS, 4);
+  exchange(CLAIMS, 5);
 
   std::vector<Claim> claims;
   for (int i = 0; i < nall; i++)
@@ -236,6 +243,7 @@ void FixClusterBreakMerge::arbitrate()
     if (free) {
       if (e.placement.shifted) totals[DEFERRED]++;
       proceeds[e.i] = 1;
+      if (e.j >= 0) e.needs = needs[e.i] | needs[e.j];
       proceeding.push_back(std::move(e));
     } else
       totals[DEFERRED]++;

@@ -80,7 +80,7 @@ void GranularPairs::find_contacts()
   for (Pair *pair : pairs) {
     const auto *ours = dynamic_cast<const PairGranCluster *>(pair);
     if (ours && ours->contacts_recorded(update->ntimestep - 1))
-      for (const auto &c : ours->contacts()) touching.push_back({c.i, c.j, pair, true, c.power});
+      for (const auto &c : ours->contacts()) touching.push_back({c.i, c.j, pair, true, {c.power, c.force}});
     else
       walk(pair);
   }
@@ -101,17 +101,18 @@ void GranularPairs::walk(Pair *pair)
       const int j = jlist[jj] & NEIGHMASK;
       const double dx = xi - x[j][0], dy = yi - x[j][1], dz = zi - x[j][2];
       const double reach = ri + radius[j];
-      if (dx * dx + dy * dy + dz * dz < reach * reach) touching.push_back({i, j, pair, false, 0.0});
+      if (dx * dx + dy * dy + dz * dz < reach * reach) touching.push_back({i, j, pair, false, {}});
     }
   }
 }
 
 /* ---------------------------------------------------------------------- */
 
-double GranularPairs::power(const Contact &c) const
+GranularPairs::Load GranularPairs::load(const Contact &c) const
 {
-  if (c.noted) return c.noted_power;
-  return dot(contact_force(c), to_vec3(atom->v[c.i]) - to_vec3(atom->v[c.j]));
+  if (c.noted) return c.noted_load;
+  const Vec3 force = contact_force(c);
+  return {dot(force, to_vec3(atom->v[c.i]) - to_vec3(atom->v[c.j])), norm(force)};
 }
 
 /* ---------------------------------------------------------------------- */

@@ -22,11 +22,15 @@ class Pair;
 
 class GranularPairs : protected Pointers {
  public:
+  struct Load {
+    double power;    // F_ij . (V_i - V_j), the same for both
+    double force;    // |F_ij|
+  };
   struct Contact {
     int i, j;    // as they stand in the neighbor list: i is owned
     Pair *pair;
-    bool noted;            // power is known already
-    double noted_power;
+    bool noted;            // its load is known already
+    Load noted_load;
   };
 
   GranularPairs(class LAMMPS *lmp) : Pointers(lmp) {}
@@ -44,8 +48,8 @@ class GranularPairs : protected Pointers {
   void find_contacts();
   const std::vector<Contact> &contacts() const { return touching; }
 
-  // F_ij . (V_i - V_j), at the instant of find_contacts()
-  double power(const Contact &) const;
+  // at the instant of find_contacts()
+  Load load(const Contact &) const;
 
   // Two clusters that meet.
   struct Meeting {

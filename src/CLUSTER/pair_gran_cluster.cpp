@@ -230,7 +230,7 @@ template <bool ROTATE, bool FRICTION> void PairGranCluster::compute_contacts()
     restless.swing += share * law.k_n * (0.5 * speed_sq + energy / c.m);
     if (FRICTION)
       restless.creep += share * (energy - law.normal_energy(c.overlap)) * std::sqrt(speed_sq) / c.overlap;
-    if (recording) recorded.push_back({i, j, dot(force, c.velocity)});
+    if (recording) recorded.push_back({i, j, dot(force, c.velocity), std::sqrt(force_sq)});
     add_force<ROTATE>(i, j, c);
     if (evflag)
       ev_tally_xyz(i, j, nlocal, this->force->newton_pair, energy, 0.0, force[0], force[1], force[2], dx, dy, dz);

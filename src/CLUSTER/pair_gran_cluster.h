@@ -40,6 +40,7 @@ class PairGranCluster : public PairGranHookeHistory {
   struct Contact {
     int i, j;        // as they stand in the neighbor list: i is owned
     double power;    // F_ij . (V_i - V_j)
+    double force;    // |F_ij|
   };
   void record_contacts(bigint step) { record_step = step; }
   bool contacts_recorded(bigint step) const { return recorded_step == step; }

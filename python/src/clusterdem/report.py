@@ -19,6 +19,9 @@ from .frame import Floats, Frame
 from .grid import PAPER_SCALE, Grid, Maps, maps_of
 from .ledger import Totals, statements, totals_of
 from .mapfigures import FIELDS, draw_maps, panels_of
+from .needs import needs_of
+from .needs import statements as needs_in_words
+from .needs import table as needs_table
 from .nonuniformity import Profile, Uniformity, lateral, measure
 from .output import write_text
 from .parallel import Gathered, over_frames
@@ -131,7 +134,7 @@ def _page(
     parts = [_head(run, found, case, log)]
     if case is not None and not any(math.isnan(head.time) for head in heads):
         parts.append(_comparison(found.values, case))
-    parts += [_maps(shown, grid), _sizes(found, shown, last), _events(run), _uniformity(found, shown)]
+    parts += [_maps(shown, grid), _sizes(found, shown, last), _events(run), _needs(run), _uniformity(found, shown)]
     parts += [_ledger(run, found), _engine(log), _scene(run, log)]
     return html.page(f"Cluster DEM run {run.name}", "".join(parts))
 
@@ -243,6 +246,22 @@ def _events(run: RunFolder) -> str:
         (name, f"{series[name][-1]:,.0f}") for name in ("breakups", "merges", "born", "deferred") if name in series
     ]
     return text + (html.facts(totals) if totals else "")
+
+
+def _needs(run: RunFolder) -> str:
+    needs = needs_of(read_series(run.series)) if run.series is not None else None
+    if needs is None:
+        return ""
+    note = (
+        "A term decided an event that the same test would have refused without it, at that instant. What a term costs, and "
+        "whether the results stay without it, is measured by running without: clusterdem trade."
+    )
+    return (
+        "<h2>What this scene needs</h2>\n"
+        + html.bullets(needs_in_words(needs))
+        + html.table(needs_table(needs))
+        + html.paragraph(note, "note")
+    )
 
 
 def _uniformity(found: Gathered[Summary], shown: Sequence[Shown]) -> str:

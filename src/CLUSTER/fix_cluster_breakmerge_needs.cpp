@@ -1,0 +1,56 @@
+/* ----------------------------------------------------------------------
+   Cluster DEM for LAMMPS. Distributed under the GNU General Public License, version 2 or later.
+------------------------------------------------------------------------- */
+
+// What the scene needs: which terms of E_in* decide its events.
+
+#include "fix_cluster_breakmerge.h"
+
+#include "atom.h"
+
+using namespace LAMMPS_NS;
+using namespace ClusterDEM;
+
+/* ---------------------------------------------------------------------- */
+
+PowerParts FixClusterBreakMerge::power_parts(int i) const
+{
+  const double *row = array_atom[i];
+  return {row[3], row[4], row[5]};
+}
+
+/* ----------------------------------------------------------------------
+   a cluster that was tested and does not break
+------------------------------------------------------------------------- */
+
+void FixClusterBreakMerge::note_whole(int i)
+{
+  const PowerParts power = power_parts(i);
+  if (rule.whole_only_by(PowerParts::ST, power, count[i], array_atom[i][1])) totals[WHOLE_BY_ST]++;
+  if (rule.whole_only_by(PowerParts::MF, power, count[i], array_atom[i][1])) totals[WHOLE_BY_MF]++;
+}
+
+/* ----------------------------------------------------------------------
+   a breakup that happens; i still is the parent
+------------------------------------------------------------------------- */
+
+void FixClusterBreakMerge::note_breakup(int i)
+{
+  const PowerParts power = power_parts(i);
+  totals[SHARE_ST] += power.share(PowerParts::ST);
+  totals[SHARE_CC] += power.share(PowerParts::CC);
+  totals[SHARE_MF] += power.share(PowerParts::MF);
+  if (rule.breaks_only_by(PowerParts::ST, power, count[i], array_atom[i][1])) totals[BREAKUPS_BY_ST]++;
+  if (rule.breaks_only_by(PowerParts::CC, power, count[i], array_atom[i][1])) totals[BREAKUPS_BY_CC]++;
+}
+
+/* ----------------------------------------------------------------------
+   terms without which owned cluster i would refuse to be part of one of n particles
+------------------------------------------------------------------------- */
+
+int FixClusterBreakMerge::needed_to_merge(int i, int n) const
+{
+  const PowerParts power = power_parts(i);
+  return (rule.merges_only_by(PowerParts::ST, power, n) ? NEEDS_ST : 0) |
+      (rule.merges_only_by(PowerParts::MF, power, n) ? NEEDS_MF : 0);
+}
