@@ -56,6 +56,13 @@ def test_clusters_without_rotation(tmp_path, default):
     assert "atom_style   cluster\n" in log and np.abs(last["vz"] - default["vz"]).max() < 1e-9  # rounding
 
 
+def test_larger_domain_without_rotation(tmp_path):
+    """Filled at random as a whole: LAMMPS replicates no atom style that comes from a plugin."""
+    first, last, _ = case1(tmp_path, contact="frictionless", atoms="cluster", nx=2)
+    assert len(first["n"]) == 10_000 and last["n"].sum() == 2 * PARTICLES
+    assert np.sum(first["x"] < 0.3) == pytest.approx(5_000, abs=250)  # chance gives a deviation of 50
+
+
 def test_size_switches(tmp_path):
     for n_start in (100, 1600):
         first, last, _ = case1(tmp_path / str(n_start), n_start=n_start)
