@@ -1,8 +1,9 @@
-"""How time and memory grow with the number of clusters: python bench/growth.py [clusters ...] [--rounds 3] [--traffic]
+"""How time and memory grow with the number of clusters: python bench/growth.py [clusters ...] [--traffic]
 
 Clusters of 30 particles at the density of case 1's end (66,000 in 0.3 x 0.6 m) in domains twice as high as wide; lean
 contacts, gas force refreshed and sizes checked every 10 steps. Every size runs the same 300 steps: 100 to warm up, 200
-timed. One rank. --traffic counts what a cluster-step fetches from memory, by valgrind's cache simulator.
+timed, with another seed in every turn; one rank. --traffic counts what a cluster-step fetches from memory, by
+valgrind's cache simulator.
 """
 
 from __future__ import annotations
@@ -40,14 +41,13 @@ variable d equal 1e-4*60^(1/3)
 variable free equal 0.49*({spacing}-v_d)
 set type 1 diameter $d
 set type 1 density 1000
-displace_atoms all random ${{free}} 0 ${{free}} 7 units box
+displace_atoms all random ${{free}} 0 ${{free}} {seed} units box
 pair_style gran/cluster 10.0 0.3 0.0 tangential none cutoff 1.5876e-3
 pair_coeff * *
 variable u atom 0.3*sin(79190*x+104729*z)
 variable w atom 1.5+0.3*sin(61379*x-94321*z)
 velocity all set v_u 0 v_w
-fix move all nve
-fix fall all gravity 9.81 vector 0 0 -1
+{motion}
 {ours}
 timestep {dt}
 thermo 1000
@@ -56,22 +56,26 @@ run {warm}
 run {steps}
 {count}
 """
+BARE = "fix move all nve\nfix fall all gravity 9.81 vector 0 0 -1"
+FUSED = "fix move all nve/cluster gravity 9.81 0 0 -1 drag drag"
 DRAG = (
     "fix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 2 law trancong 0.8 1.1 plane xz "
-    "fluctuation 0.75 0 0.75 cell {} 1 {} 5e-3 1 refresh 10\n"
+    "fluctuation 0.75 0 0.75 cell {x} 1 {z} 5e-3 {seed} refresh 10\n"
 )
 SIZE = "fix size all cluster/breakmerge 10 1e-4 2000 drag drag K 0.0266"
-LAYERS = {"bare": "", "no events": DRAG + SIZE + " break no merge no", "events": DRAG + SIZE}
+LAYERS = {"bare": (BARE, ""), "no events": (FUSED, DRAG + SIZE + " break no merge no"), "events": (FUSED, DRAG + SIZE)}
 EVENTS = "print 'events so far: $(f_size[3]+f_size[4]:%.0f)'"
 
 
-def script(clusters: int, layer: str, steps: int = STEPS) -> str:
+def script(clusters: int, layer: str, seed: int = 1, steps: int = STEPS) -> str:
     nx = max(1, round((clusters / 2) ** 0.5))
     nz = max(1, round(clusters / nx))
     cells = [max(1, round(n * SPACING / size)) for n, size in ((nx, 0.01), (nz, 0.02))]
+    motion, ours = LAYERS[layer]
+    ours = ours.format(x=cells[0], z=cells[1], seed=seed)
     count = EVENTS if layer == "events" else ""
     return SCRIPT.format(
-        spacing=SPACING, nx=nx, nz=nz, ours=LAYERS[layer].format(*cells), dt=DT, warm=WARM, steps=steps, count=count
+        spacing=SPACING, nx=nx, nz=nz, motion=motion, ours=ours, seed=seed, dt=DT, warm=WARM, steps=steps, count=count
     )
 
 
@@ -98,11 +102,16 @@ def copy_rate(size: int, rounds: int = 5) -> float:
     return best
 
 
+def turns(clusters: float) -> int:
+    """Small runs are repeated, the largest take minutes."""
+    return max(1, min(15, round(2e6 / clusters)))
+
+
 def traffic(folder: Path, clusters: int, layer: str) -> float:
     """Bytes that a cluster-step fetches from memory past a last cache of 32 MB: lines missed between two lengths."""
     missed = {}
     for steps in (0, 20):
-        (folder / "in.lmp").write_text(script(clusters, layer, steps))
+        (folder / "in.lmp").write_text(script(clusters, layer, steps=steps))
         command = ["valgrind", "--tool=cachegrind", "--cache-sim=yes", "--cachegrind-out-file=/dev/null"]
         command += ["--trace-children=yes", "--LL=33554432,16,64", LMP, "-log", "none", "-in", "in.lmp"]
         done = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True)
@@ -116,7 +125,6 @@ def traffic(folder: Path, clusters: int, layer: str) -> float:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("clusters", type=float, nargs="*", default=[5e3, 2e4, 6e4, 2.5e5, 1e6, 5e6])
-    parser.add_argument("--rounds", type=int, default=3, help="the median of so many turns counts")
     parser.add_argument("--traffic", action="store_true", help="count memory traffic, too (minutes)")
     options = parser.parse_args()
 
@@ -131,14 +139,18 @@ def main() -> None:
         print(head("clusters", *columns, "events per cluster and s", *memory))
         for clusters in options.clusters:
             times: dict[str, list[float]] = {layer: [] for layer in LAYERS}
-            for _ in range(options.rounds):
+            events, exposure = 0, 0.0
+            for turn in range(turns(clusters)):
                 for layer in LAYERS:
-                    last = run(folder, script(round(clusters), layer))
+                    last = run(folder, script(round(clusters), layer, seed=turn + 1))
                     times[layer].append(last.ns_per_step)
+                events += events_of(last)
+                exposure += last.atoms * last.steps * DT
             columns = [f"{statistics.median(t):.1f} ({min(t):.1f} to {max(t):.1f})" for t in times.values()]
-            rate = events_of(last) / last.atoms / (last.steps * DT)
             memory = [last.own_bytes / last.atoms, (last.peak_bytes - empty) / last.atoms]
-            print(row(f"{last.atoms:,}", *columns, f"{rate:.1f}", *(f"{m:.0f}" for m in memory)), flush=True)
+            print(
+                row(f"{last.atoms:,}", *columns, f"{events / exposure:.1f}", *(f"{m:.0f}" for m in memory)), flush=True
+            )
         if options.traffic:
             if not shutil.which("valgrind"):
                 raise SystemExit("--traffic needs valgrind")

@@ -104,7 +104,7 @@ RESOLVED = (
 )
 CLUSTERS = {
     "case 1, the inputs' settings": "",
-    "case 1, fast": "-var atoms cluster -var contact frictionless -var every 100 -var refresh 50",
+    "case 1, fast": "-var atoms cluster -var contact frictionless -var motion nve/cluster -var every 100 -var refresh 50",
 }
 
 
