@@ -24,9 +24,7 @@ read_data clusters.data
 variable u atom 0.3*sin(79190*x+104729*z)
 variable w atom 2+0.3*sin(61379*x-94321*z)
 velocity all set v_u 0 v_w
-fix move all {motion}
-fix fall all gravity 9.81 vector 0 0 -1
-{ours}
+{motion}{ours}
 timestep 1e-6
 thermo 1000
 run {steps}
@@ -35,6 +33,8 @@ DRAG = (
     "fix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 2 law trancong 0.8 1.1 plane xz "
     "fluctuation 0.75 0 0.75 cell 30 1 30 5e-3 1 refresh {}\n"
 )
+APART = "fix move all {}\nfix fall all gravity 9.81 vector 0 0 -1\n"
+TOGETHER = "fix move all nve/cluster gravity 9.81 0 0 -1 drag drag\n"
 SIZE = "fix size all cluster/breakmerge {} 1e-4 2000 drag drag K 0.0266 break no merge no\n"
 EVENTS = "fix size all cluster/breakmerge {} 1e-4 2000 drag drag K 0.0266\n"
 ENGINES = {
@@ -54,11 +54,22 @@ LAYERS = {
     "bare": "",
     "drag every step": DRAG.format(1),
     "drag refreshed every 10": DRAG.format(10),
-    "drag 10, sizes every 10, no events": DRAG.format(10) + SIZE.format(10),
-    "drag 10, sizes every 100, no events": DRAG.format(10) + SIZE.format(100),
-    "drag 10, sizes every 10, events": DRAG.format(10) + EVENTS.format(10),
-    "drag 10, sizes every 100, events": DRAG.format(10) + EVENTS.format(100),
+    "drag refreshed every 50": DRAG.format(50),
+    "drag 50, sizes every 100, no events": DRAG.format(50) + SIZE.format(100),
+    "drag 50, sizes every 100, events": DRAG.format(50) + EVENTS.format(100),
 }
+FUSED = "nve/cluster, "    # the same with gravity and held drag in the pass that moves; has no rotation
+
+
+def scripts(atoms: str, motion: str, pair: str, steps: int) -> dict[str, str]:
+    apart = APART.format(motion)
+    result = {
+        what: SCRIPT.format(atoms=atoms, motion=apart, pair=pair, ours=ours, steps=steps) for what, ours in LAYERS.items()
+    }
+    if motion == "nve":
+        for what in list(LAYERS)[3:]:
+            result[FUSED + what] = SCRIPT.format(atoms=atoms, motion=TOGETHER, pair=pair, ours=LAYERS[what], steps=steps)
+    return result
 
 
 def main() -> None:
@@ -69,11 +80,7 @@ def main() -> None:
             count = write_clusters(folder / "clusters.data", wanted)
             steps = max(300, 30_000_000 // count)
             for engine, (atoms, motion, pair) in ENGINES.items():
-                scripts = {
-                    what: SCRIPT.format(atoms=atoms, motion=motion, pair=pair, ours=ours, steps=steps)
-                    for what, ours in LAYERS.items()
-                }
-                times = alternate(folder, scripts)
+                times = alternate(folder, scripts(atoms, motion, pair, steps))
                 bare = sorted(times["bare"])[len(times["bare"]) // 2]
                 print(f"{count} clusters, {engine}: bare {1e9 * bare / count / steps:.1f} ns per cluster-step")
                 for what, (median, low, high) in ratios(times, "bare").items():

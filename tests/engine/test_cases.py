@@ -9,7 +9,7 @@ INPUTS = ROOT / "inputs"
 
 def case(folder, name, np_=1, **variables):
     folder.mkdir(parents=True, exist_ok=True)
-    variables = {"inputs": INPUTS, "tend": 2e-4, **variables}
+    variables = {"inputs": INPUTS, "tend": 2e-4, "digits": 17, **variables}
     return run_file(folder, ["-in", str(INPUTS / f"{name}.in"), "-log", f"{name}.log"], np_, **variables)
 
 
@@ -27,9 +27,17 @@ def test_runs(tmp_path, name, particles, reading):
     assert (tmp_path / f"{name}.restart").stat().st_size > 0
 
 
+@pytest.mark.parametrize("setting, steps", [("careful", 200), ("standard", 200), ("fast", 40)])
+def test_settings(tmp_path, setting, steps):
+    """Breaks of the first check, after 0.2 ms at most, do not hang on the setting."""
+    r = case(tmp_path, "case1", setting=setting)
+    assert r.table("case1.N.txt")[-1, 0] == steps and r.dump(f"case1.{steps:08d}.dump")["n"].sum() == 2_000_000
+    assert 5500 < len(r.dump(f"case1.{steps:08d}.dump")["n"]) < 6000
+
+
 def test_other_contact_laws(tmp_path):
     for law in ("hertz", "md"):
-        assert case(tmp_path / law, "case1", contact=law).dump("case1.00000200.dump")["n"].sum() == 2_000_000
+        assert case(tmp_path / law, "case1", contact=law, atoms="sphere", motion="nve").dump("case1.00000200.dump")["n"].sum() == 2_000_000
 
 
 def test_controlled_step_changes_nothing_where_nothing_is_rejected(tmp_path):

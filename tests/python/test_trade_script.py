@@ -40,8 +40,8 @@ def read(name, **variables):
 
 
 def test_includes_follow_the_variables():
-    assert read("case1.in")[:4] == ["case1.in", "common.in", "reading_A.in", "contact_hooke.in"]
-    assert "contact_md.in" in read("case1.in", contact="md") and "contact_hooke.in" not in read(
+    assert read("case1.in")[:5] == ["case1.in", "common.in", "setting_standard.in", "reading_A.in", "contact_linear.in"]
+    assert "contact_md.in" in read("case1.in", contact="md") and "contact_linear.in" not in read(
         "case1.in", contact="md"
     )
     assert "step_controlled.in" in read("case1.in", step="controlled")
