@@ -160,7 +160,7 @@ def main() -> None:
                 print(f"seed {seed}: {way.name}: {spent:.1f} s", flush=True)
 
     def show(name: str, values: list[list[float]]) -> None:
-        cells = [f"{statistics.mean(v):.3g} ± {statistics.stdev(v) if len(v) > 1 else 0:.1g}" for v in values]
+        cells = [f"{statistics.mean(v):.3g} ± {statistics.stdev(v) if len(v) > 1 else 0:.2g}" for v in values]
         print(row(name, *cells))
 
     times = [frame.time for frame in runs[WAYS[0].name][0]]
