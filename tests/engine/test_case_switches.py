@@ -56,11 +56,15 @@ def test_clusters_without_rotation(tmp_path, default):
     assert "atom_style   sphere\n" in log and np.abs(last["vz"] - default["vz"]).max() < 1e-9  # rounding
 
 
-def test_larger_domain_without_rotation(tmp_path):
-    """Filled at random as a whole: LAMMPS replicates no atom style that comes from a plugin."""
-    first, last, _ = case1(tmp_path, contact="frictionless", atoms="cluster", nx=2)
-    assert len(first["n"]) == 10_000 and last["n"].sum() == 2 * PARTICLES
-    assert np.sum(first["x"] < 0.3) == pytest.approx(5_000, abs=250)  # chance gives a deviation of 50
+@pytest.mark.parametrize("atoms", ["cluster", "sphere"])
+def test_copies_of_the_domain(tmp_path, atoms):
+    first, last, _ = case1(tmp_path, atoms=atoms, nx=2, nz=2)
+    assert len(first["n"]) == 4 * 5_000 and last["n"].sum() == 4 * PARTICLES
+    x, z = first["x"], first["z"]
+    quarters = [(x >= dx) & (x < dx + 0.3) & (z >= dz) & (z < dz + 0.6) for dx in (0, 0.3) for dz in (0, 0.6)]
+    one, *others = (np.sort(x[q] % 0.3 + 1j * (z[q] % 0.6)) for q in quarters)
+    assert all(np.abs(other - one).max() < 1e-12 for other in others)  # rounding
+    assert not list(tmp_path.glob("*.data"))
 
 
 def test_size_switches(tmp_path):
