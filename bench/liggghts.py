@@ -34,13 +34,16 @@ neigh_modify every 1 delay 0 check yes binsize 2e-3
 variable u atom 0.3*sin(79190*x+104729*z)
 variable w atom 2+0.3*sin(61379*x-94321*z)
 velocity all set v_u 0 v_w
-fix move all {motion}
-fix fall all gravity 9.81 vector 0 0 -1
+{motion}
 timestep 1e-6
 thermo_style custom step atoms ke
 thermo {every}
 run {steps}
 """
+
+
+def apart(motion: str) -> str:
+    return f"fix move all {motion}\nfix fall all gravity 9.81 vector 0 0 -1"
 
 
 def lammps(style: str, pair: str) -> dict[str, str]:
@@ -81,17 +84,17 @@ def variants(n: int) -> dict[str, dict[str, tuple[str, dict[str, str]]]]:
     return {
         "friction with history, rotation": {
             "LIGGGHTS, hooke/stiffness tangential history": (
-                LIGGGHTS, liggghts(n, "tangential history") | {"motion": "nve/sphere"}),
+                LIGGGHTS, liggghts(n, "tangential history") | {"motion": apart("nve/sphere")}),
             "LAMMPS, pair granular linear_history": (
-                LMP, lammps("sphere", granular(f"linear_history {K_T!r} 1.0 {FRICTION}")) | {"motion": "nve/sphere"}),
+                LMP, lammps("sphere", granular(f"linear_history {K_T!r} 1.0 {FRICTION}")) | {"motion": apart("nve/sphere")}),
             "plugin, pair gran/cluster tangential linear": (
-                LMP, lammps("sphere", gran_cluster(FRICTION)) | {"motion": "nve/sphere"}),
+                LMP, lammps("sphere", gran_cluster(FRICTION)) | {"motion": apart("nve/sphere")}),
         },
         "no friction, no rotation": {
-            "LIGGGHTS, hooke/stiffness, nve": (LIGGGHTS, liggghts(n, "tangential off") | {"motion": "nve"}),
-            "LAMMPS, pair granular, nve": (LMP, lammps("sphere", granular("linear_nohistory 0.0 0.0")) | {"motion": "nve"}),
-            "plugin, pair gran/cluster, atom_style cluster, nve": (
-                LMP, lammps("cluster", gran_cluster(0.0)) | {"motion": "nve"}),
+            "LIGGGHTS, hooke/stiffness, nve": (LIGGGHTS, liggghts(n, "tangential off") | {"motion": apart("nve")}),
+            "LAMMPS, pair granular, nve": (LMP, lammps("sphere", granular("linear_nohistory 0.0 0.0")) | {"motion": apart("nve")}),
+            "plugin, pair gran/cluster, atom_style cluster, nve/cluster": (
+                LMP, lammps("cluster", gran_cluster(0.0)) | {"motion": "fix move all nve/cluster gravity 9.81 0 0 -1"}),
         },
     }  # fmt: skip
 
