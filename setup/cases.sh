@@ -1,4 +1,4 @@
-# The paper's cases: run, map, compare.
+# The paper's cases and one of our own: run, map, compare.
 # shellcheck shell=bash
 
 verb_case1() { # the paper's case 1 with its maps: [--np N] [-var NAME VALUE …]
@@ -9,6 +9,10 @@ verb_case2() { # the paper's case 2, the same way
 }
 verb_case3() { # the paper's case 3, the same way
   run_case case3 "$@"
+}
+
+verb_shear() { # a sheared crowd, where contacts decide breakups, the same way
+  run_case shear "$@"
 }
 
 # run_case NAME [--np N] [arguments of lmp…]: all that it writes goes to results/NAME (or -var outdir).
@@ -38,6 +42,6 @@ run_case() {
   "${launch[@]}" build/bin/lmp "${arguments[@]}" -in "inputs/$name.in" -log "$out/$name.log" \
     -var outdir "$out" </dev/null
   build/bin/clusterdem map "$out/$name".*.dump --grid 30 30 --out "$out"
-  build/bin/clusterdem compare "$out/$name".*.dump --case "$name"
+  [[ $name != case* ]] || build/bin/clusterdem compare "$out/$name".*.dump --case "$name" # what was published
   build/bin/clusterdem report "$out" --name "$name"
 }

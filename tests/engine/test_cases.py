@@ -35,6 +35,19 @@ def test_settings(tmp_path, setting, steps):
     assert 5500 < len(r.dump(f"case1.{steps:08d}.dump")["n"]) < 6000
 
 
+def test_sheared_crowd(tmp_path):
+    """Contacts decide a good part of its breakups; the table names each of its columns."""
+    r = case(tmp_path, "shear", tend=2e-3, dt=2e-6, every=10)
+    first, last = r.dump("shear.00000000.dump"), r.dump("shear.00001000.dump")
+    assert first["n"].tolist() == [400] * 2000 and last["n"].sum() == 800_000
+    gas = 1 + 2 * np.abs(first["x"] - 0.03) / 0.03
+    assert first["vz"] == pytest.approx(gas, abs=1e-12)
+    assert np.abs(first["ug_z"] - gas).max() <= 0.75 + 1e-12
+    names = (tmp_path / "shear.N.txt").read_text().splitlines()[1].split()[1:]
+    end = dict(zip(names, r.table("shear.N.txt")[-1], strict=True))
+    assert end["breakups"] > 100 and end["breakups_by_cc"] > 0.1 * end["breakups"]
+
+
 def test_other_contact_laws(tmp_path):
     for law in ("hertz", "md"):
         assert case(tmp_path / law, "case1", contact=law, atoms="sphere", motion="nve").dump("case1.00000200.dump")["n"].sum() == 2_000_000
