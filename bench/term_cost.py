@@ -12,7 +12,7 @@ from pathlib import Path
 
 from alternate import alternate, write_clusters
 
-STEPS = 300
+STEPS = 200
 SCRIPT = """
 units si
 atom_style sphere
@@ -23,14 +23,14 @@ neighbor 0.2e-3 bin
 neigh_modify every 1 delay 0 check yes binsize 2e-3
 read_data clusters.data
 {pair}
-variable u atom 0.5*sin(79190*x+104729*z)
-variable w atom 2+0.5*sin(61379*x-94321*z)
+variable u atom 1.0*sin(79190*x+104729*z)
+variable w atom 2+1.0*sin(61379*x-94321*z)
 velocity all set v_u 0 v_w
 fix move all nve
 fix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 2 law trancong 0.8 1.1 plane xz fluctuation 0.75 0 0.75 cell 10 1 10 5e-3 1
 timestep 2e-6
 thermo 1000
-run 1000
+run 600
 {size}
 run {steps}
 """
@@ -53,7 +53,7 @@ VARIANTS = {
 def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        count = write_clusters(folder / "clusters.data", 20_000, lx=0.1, lz=0.2)
+        count = write_clusters(folder / "clusters.data", 10_000, lx=0.07, lz=0.14)
         for engine, pair in PAIRS.items():
             scripts = {what: SCRIPT.format(pair=pair, size=size, steps=STEPS) for what, size in VARIANTS.items()}
             times = alternate(folder, scripts)

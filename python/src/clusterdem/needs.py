@@ -99,7 +99,7 @@ def percent(share: float) -> str:
 
 def _of_breakups(term: Term, off: str) -> str:
     said = f"{term.name} decided {percent(term.breakups)} of the breakups"
-    if term.whole > 0:
+    if term.whole >= NEGLIGIBLE:
         said += f" and kept {percent(term.whole)} of the clusters whole at a check"
     if term.decides >= NEGLIGIBLE:
         return f"{said}: needed."
