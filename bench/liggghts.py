@@ -50,7 +50,6 @@ def lammps(style: str, pair: str) -> dict[str, str]:
     return {
         "head": f"atom_style {style}\natom_modify map yes\ncomm_modify vel yes",
         "pair": pair,
-        "atoms": "atoms",
     }
 
 
@@ -75,7 +74,6 @@ def liggghts(n: int, tangential: str) -> dict[str, str]:
     return {
         "head": "atom_style granular\natom_modify map array\nnewton off\ncommunicate single vel yes",
         "pair": f"{given}pair_style gran model hooke/stiffness {tangential}\npair_coeff * *",
-        "atoms": "atoms",
     }
 
 

@@ -31,7 +31,7 @@ static constexpr double MOST_SITES = 1.0e7;    // of a lattice for fragments: 0.
 /* ---------------------------------------------------------------------- */
 
 FixClusterBreakMerge::FixClusterBreakMerge(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), geometry{0.0, 0.0, 0.5}, k_given(false), k_from_emms(false), k_value(0.0),
+    EngineFix(lmp, narg, arg), geometry{0.0, 0.0, 0.5}, k_given(false), k_from_emms(false), k_value(0.0),
     umf_value(0.0), umf_from_wen_yu(true), eps_mf(0.5), cells_given(false), cells{1, 1, 1},
     nst(NstReading::PARTICLE), nsmf(NsmfReading::EMMS), up(UpReading::OWN), ncc_factor(1.0),
     term_st(true), term_cc(true), term_mf(true), test(ALWAYS), hysteresis(0.26), breaking(true),
@@ -72,16 +72,7 @@ FixClusterBreakMerge::FixClusterBreakMerge(LAMMPS *lmp, int narg, char **arg) :
   geometry.rho_p = args.positive("rho_p", "mass/volume");
   parse(args);
 
-  // newborns find room and partners through the atom map; a hash, because IDs only ever grow
-  if (atom->map_style == Atom::MAP_NONE) {
-    atom->map_user = Atom::MAP_HASH;
-    atom->map_style = Atom::MAP_HASH;
-    if (domain->box_exist) {
-      atom->nghost = 0;
-      atom->map_init();
-      atom->map_set();
-    }
-  }
+  use_hash_map(atom, domain);    // newborns find room and partners through it
 
   FixClusterBreakMerge::grow_arrays(atom->nmax);
   for (int i = 0; i < atom->nlocal; i++) FixClusterBreakMerge::set_arrays(i);
@@ -295,11 +286,11 @@ void FixClusterBreakMerge::check_room()
     error->all(FLERR, "Fix {} {}: claim {} [length] is below {}, the room that two halves of the largest cluster "
                "need at spacing {}: the largest could never break", style, id, claim_max, halves, spacing);
   const double needed = 2.0 * claim_max + neighbor->skin;
-  const double have = MAX(force->pair->cutforce + neighbor->skin, comm->cutghostuser);
+  const double have = ghost_reach(force->pair->cutforce + neighbor->skin, comm->cutghostuser, neighbor->skin);
   if (have < needed * (1.0 - 1.0e-12))
     error->all(FLERR,
                "Fix {} {}: the ghost cutoff {} is below {}, twice the claim {} plus the skin: use "
-               "'comm_modify cutoff {}' or a smaller claim", style, id, have, needed, claim_max, needed * 1.0001);
+               "'{}' or a smaller claim", style, id, have, needed, claim_max, ask_for_ghosts(needed * 1.0001, neighbor->skin));
   for (int axis = 0; axis < 3; axis++) {
     if (planar && axis == 1) continue;
     if (domain->periodicity[axis] && domain->prd[axis] < 4.0 * claim_max)

@@ -11,7 +11,7 @@ FixStyle(cluster/breakmerge,FixClusterBreakMerge);
 #ifndef LMP_FIX_CLUSTER_BREAKMERGE_H
 #define LMP_FIX_CLUSTER_BREAKMERGE_H
 
-#include "fix.h"
+#include "engine.h"
 
 #include "granular_pairs.h"
 #include "model/decisive_terms.h"
@@ -27,7 +27,7 @@ class CellAverages;
 class FixDragCluster;
 class StyleArguments;
 
-class FixClusterBreakMerge : public Fix {
+class FixClusterBreakMerge : public EngineFix {
  public:
   FixClusterBreakMerge(class LAMMPS *, int, char **);
   ~FixClusterBreakMerge() override;
@@ -65,6 +65,8 @@ class FixClusterBreakMerge : public Fix {
   double memory_usage() override;
 
   const ClusterDEM::ClusterGeometry &cluster_geometry() const { return geometry; }
+  const ClusterDEM::SizeLimits &size_limits() const { return limits; }
+  bool looks_at_power() const { return term_cc && ncc_factor > 0.0; }
 
   // does a check at this step change what later checks decide, even without events?
   bool remembers(bigint step) const { return test == CONTACT_ENDED && step % nevery == 0; }
@@ -167,7 +169,6 @@ class FixClusterBreakMerge : public Fix {
 
   // fix_cluster_breakmerge_check.cpp: what holds now
   int particle_count(int i);
-  bool looks_at_power() const { return term_cc && ncc_factor > 0.0; }
   bool looks_at_contacts() const { return looks_at_power() || merging || test != ALWAYS; }
   void size_scratch();
   void free_scratch();

@@ -41,7 +41,7 @@ int FixClusterBreakMerge::particle_count(int i)
     error->one(FLERR,
                "Fix {} {}: cluster {} {}: {} particles at voidage {} need diameter {:.10g} and density {:.10g}",
                style, id, atom->tag[i], fault, nearest, geometry.voidage, geometry.diameter(nearest),
-               geometry.rho_p * (1.0 - geometry.voidage));
+               geometry.density());
   }
   count[i] = n.n;
   array_atom[i][0] = n.n;

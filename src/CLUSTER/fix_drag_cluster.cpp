@@ -33,7 +33,7 @@ static constexpr int BLOCK = 64;     // clusters whose drag is computed together
 /* ---------------------------------------------------------------------- */
 
 FixDragCluster::FixDragCluster(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), law(std::make_unique<TranCongDrag>(0.8, 1.1)), velocity_atom(nullptr),
+    EngineFix(lmp, narg, arg), law(std::make_unique<TranCongDrag>(0.8, 1.1)), velocity_atom(nullptr),
     nmax_velocity(0), profile_axis(-1), fluctuation(NO_FLUCTUATION), amplitude{0.0, 0.0, 0.0},
     cells{1, 1, 1}, period(0.0), seed(0), period_now(0),
     inverse_length{0.0, 0.0, 0.0}, draw(nullptr),
@@ -132,7 +132,7 @@ void FixDragCluster::init()
 
   for (auto &component : velocity) {
     if (component.variable.empty()) continue;
-    component.index = input->variable->find(component.variable.c_str());
+    component.index = input->variable->find(component.variable.data());
     if (component.index < 0)
       error->all(FLERR, "Variable {} for fix {} {} does not exist", component.variable, style, id);
     component.per_atom = input->variable->atomstyle(component.index);

@@ -11,7 +11,7 @@ FixStyle(drag/cluster,FixDragCluster);
 #ifndef LMP_FIX_DRAG_CLUSTER_H
 #define LMP_FIX_DRAG_CLUSTER_H
 
-#include "fix.h"
+#include "engine.h"
 
 #include "model/drag_law.h"
 #include "model/gas_field.h"
@@ -19,7 +19,7 @@ FixStyle(drag/cluster,FixDragCluster);
 namespace LAMMPS_NS {
 class StyleArguments;
 
-class FixDragCluster : public Fix {
+class FixDragCluster : public EngineFix {
  public:
   FixDragCluster(class LAMMPS *, int, char **);
   ~FixDragCluster() override;

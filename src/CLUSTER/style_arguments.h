@@ -8,10 +8,10 @@
 #ifndef LMP_STYLE_ARGUMENTS_H
 #define LMP_STYLE_ARGUMENTS_H
 
+#include "engine.h"
 #include "error.h"
 #include "input.h"
 #include "pointers.h"
-#include "utils.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -20,16 +20,16 @@
 
 namespace LAMMPS_NS {
 
-class StyleArguments : protected Pointers {
+class StyleArguments : protected EnginePointers {
  public:
   // of a fix: ID group style and what follows
   StyleArguments(LAMMPS *lmp, int narg, char **arg, int first) :
-      Pointers(lmp), narg_(narg), arg_(arg), i_(first), offset_(0), command_(std::string("fix ") + arg[2])
+      EnginePointers(lmp), narg_(narg), arg_(arg), i_(first), offset_(0), command_(std::string("fix ") + arg[2])
   {
   }
   // of any other command that hands over the words after its first ones; `command` names it in messages
   StyleArguments(LAMMPS *lmp, const std::string &command, int narg, char **arg) :
-      Pointers(lmp), narg_(narg), arg_(arg), i_(0), offset_(static_cast<int>(arg - input->arg)), command_(command)
+      EnginePointers(lmp), narg_(narg), arg_(arg), i_(0), offset_(static_cast<int>(arg - input->arg)), command_(command)
   {
   }
 

@@ -21,6 +21,9 @@ struct ClusterGeometry {
 
   double mass(double n) const { return n * particle_mass(); }
 
+  // of a cluster as a sphere
+  double density() const { return rho_p * (1.0 - voidage); }
+
   // equivalent diameter of n particles at the internal voidage
   double diameter(double n) const { return d_p * std::cbrt(n / (1.0 - voidage)); }
 

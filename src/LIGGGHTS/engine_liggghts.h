@@ -1,0 +1,200 @@
+/* ----------------------------------------------------------------------
+   Cluster DEM for LIGGGHTS. Distributed under the GNU General Public License, version 2 or later.
+------------------------------------------------------------------------- */
+
+// LIGGGHTS 3.8 in the words of LAMMPS, as far as the fixes drag/cluster and cluster/breakmerge use them: their source in
+// src/CLUSTER is that of both engines. LIGGGHTS left LAMMPS in 2013; what has another name there is said here.
+
+#ifndef LMP_ENGINE_LIGGGHTS_H
+#define LMP_ENGINE_LIGGGHTS_H
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix.h"
+#include "modify.h"
+#include "pointers.h"
+
+#include "format_liggghts.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+// Messages with values in them. What begins with "Fix STYLE ID" or "Fix STYLE" is said as LIGGGHTS says
+// it: Fix STYLE (id ID): …
+class ErrorWords {
+ public:
+  ErrorWords(Error *e, Fix *f = nullptr) : real(e), fix(f) {}
+
+  template <class... Args>
+  [[noreturn]] void all(const char *file, int line, const std::string &text, const Args &...args)
+  {
+    const std::string message = fmt::format(text, args...);
+    if (fix)
+      for (const std::string &me : {fmt::format("Fix {} {}", fix->style, fix->id), fmt::format("Fix {} ", fix->style)})
+        if (message.compare(0, me.size(), me) == 0)
+          real->fix_error(file, line, fix, message.substr(std::min(message.find_first_not_of(": ", me.size()), message.size())).c_str());
+    real->all(file, line, message.c_str());
+    std::abort();    // never reached: LIGGGHTS does not say that all() does not return
+  }
+  // LAMMPS marks the word `caret` of the input line; LIGGGHTS cannot
+  template <class... Args>
+  [[noreturn]] void all(const char *file, int line, int /*caret*/, const std::string &text, const Args &...args)
+  {
+    all(file, line, text, args...);
+  }
+  template <class... Args>
+  [[noreturn]] void one(const char *file, int line, const std::string &text, const Args &...args)
+  {
+    real->one(file, line, fmt::format(text, args...).c_str());
+    std::abort();
+  }
+  template <class... Args>
+  [[noreturn]] void one(const char *file, int line, int /*caret*/, const std::string &text, const Args &...args)
+  {
+    one(file, line, text, args...);
+  }
+
+ private:
+  Error *real;
+  Fix *fix;
+};
+
+class ModifyWords {
+ public:
+  explicit ModifyWords(Modify *m) : real(m) {}
+
+  std::vector<Fix *> get_fix_list() const { return {real->fix, real->fix + real->nfix}; }
+  std::vector<Fix *> get_fix_by_style(const std::string &pattern) const
+  {
+    std::vector<Fix *> found;
+    for (Fix *fix : get_fix_list())
+      if (utils::strmatch(fix->style, pattern)) found.push_back(fix);
+    return found;
+  }
+  Fix *get_fix_by_id(const std::string &id) const
+  {
+    const int k = real->find_fix(id.c_str());
+    return k < 0 ? nullptr : real->fix[k];
+  }
+  void create_attribute(int i) const
+  {
+    for (Fix *fix : get_fix_list())
+      if (fix->create_attribute) fix->set_arrays(i);
+  }
+  void clearstep_compute() { real->clearstep_compute(); }
+  void addstep_compute(bigint step) { real->addstep_compute(step); }
+
+ private:
+  Modify *real;
+};
+
+class CommWords {
+ public:
+  const int &me, &nprocs, &ghost_velocity;
+  const int *procgrid;
+  const double *cutghost, &cutghostuser;
+
+  explicit CommWords(Comm *c) :
+      me(c->me), nprocs(c->nprocs), ghost_velocity(c->ghost_velocity), procgrid(c->procgrid), cutghost(c->cutghost),
+      cutghostuser(c->cutghostuser), real(c)
+  {
+  }
+
+  void forward_comm() { real->forward_comm(); }
+  void forward_comm(Fix *fix, int size)
+  {
+    fix->comm_forward = size;
+    real->forward_comm_fix(fix);
+  }
+  void reverse_comm(Fix *fix, int size)
+  {
+    fix->comm_reverse = size;
+    real->reverse_comm_fix(fix);
+  }
+  void reverse_comm_variable(Fix *fix) { real->reverse_comm_variable_fix(fix); }
+
+ private:
+  Comm *real;
+};
+
+class EnginePointers : protected Pointers {
+ public:
+  explicit EnginePointers(LAMMPS *lmp) : Pointers(lmp), error_words(Pointers::error), error(&error_words) {}
+
+ private:
+  ErrorWords error_words;
+
+ protected:
+  ErrorWords *error;
+};
+
+class EngineFix : public Fix {
+ public:
+  EngineFix(LAMMPS *lmp, int narg, char **arg) :
+      Fix(lmp, narg, arg), error_words(Fix::error, this), modify_words(Fix::modify), comm_words(Fix::comm),
+      error(&error_words), modify(&modify_words), comm(&comm_words)
+  {
+  }
+  EngineFix(const EngineFix &) = delete;
+  EngineFix &operator=(const EngineFix &) = delete;
+
+  // what LAMMPS calls by these names; of the grid's communication there is none here
+  virtual int pack_forward_comm(int, int *, double *, int, int *) { return 0; }
+  virtual void unpack_forward_comm(int, int, double *) {}
+  virtual int pack_reverse_comm_size(int, int) { return 0; }
+  virtual void reset_grid() {}
+  virtual void pack_forward_grid(int, void *, int, int *) {}
+  virtual void unpack_forward_grid(int, void *, int, int *) {}
+  virtual void pack_reverse_grid(int, void *, int, int *) {}
+  virtual void unpack_reverse_grid(int, void *, int, int *) {}
+
+  int pack_comm(int n, int *list, double *buf, int pbc_flag, int *pbc) final
+  {
+    return pack_forward_comm(n, list, buf, pbc_flag, pbc);
+  }
+  void unpack_comm(int n, int first, double *buf) final { unpack_forward_comm(n, first, buf); }
+
+ private:
+  ErrorWords error_words;
+  ModifyWords modify_words;
+  CommWords comm_words;
+
+ protected:
+  struct Atom {
+    enum { GROW = 0, RESTART = 1 };
+  };
+  ErrorWords *error;
+  ModifyWords *modify;
+  CommWords *comm;
+  int maxexchange = 0, maxexchange_dynamic = 0;
+};
+
+inline void use_hash_map(Atom *atom, const Domain *domain)
+{
+  if (atom->map_style) return;
+  atom->map_style = 2;
+  if (domain->box_exist) {
+    atom->nghost = 0;
+    atom->map_init();
+    atom->map_set();
+  }
+}
+
+// LIGGGHTS sends a cluster only over half of the cutoff, half of the skin and its own radius: enough for contacts
+inline double ghost_reach(double pair_cutoff, double user_cutoff, double skin)
+{
+  return 0.5 * (std::max(pair_cutoff, user_cutoff) + skin);
+}
+inline std::string ask_for_ghosts(double reach, double skin)
+{
+  return fmt::format("communicate single vel yes cutoff {}", 2.0 * reach - skin);
+}
+
+}    // namespace LAMMPS_NS
+#endif

@@ -1,0 +1,87 @@
+/* ----------------------------------------------------------------------
+   Cluster DEM for LIGGGHTS. Distributed under the GNU General Public License, version 2 or later.
+------------------------------------------------------------------------- */
+
+// Contacts of LIGGGHTS' pair style gran: the neighbor list tells who touches, the pair style stores the forces.
+
+#include "granular_pairs.h"
+
+#include "atom.h"
+#include "engine.h"
+#include "fix_contact_property_atom.h"
+#include "fix_property_global.h"
+#include "force.h"
+#include "modify.h"
+#include "neigh_list.h"
+#include "pair_gran.h"
+
+using namespace LAMMPS_NS;
+using namespace ClusterDEM;
+
+/* ---------------------------------------------------------------------- */
+
+void GranularPairs::find(const std::string &fix, int, double)
+{
+  ErrorWords words(error);
+  pairs.clear();
+  auto *gran = dynamic_cast<PairGran *>(force->pair_match("gran", 0));
+  if (!gran)
+    words.all(FLERR, "{} needs a granular pair style (gran), but the pair style is {}", fix,
+              force->pair_style ? force->pair_style : "none");
+  if (!gran->contact_match("normal", "hooke/stiffness"))
+    words.all(FLERR, "{} needs a linear contact: pair_style gran model hooke/stiffness", fix);
+  pairs.push_back(gran);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void GranularPairs::expect_contacts(bigint) {}
+
+void GranularPairs::find_contacts()
+{
+  touching.clear();
+  for (Pair *pair : pairs) walk(pair);
+}
+
+void GranularPairs::walk(Pair *pair)
+{
+  double **x = atom->x;
+  const double *radius = atom->radius;
+  const NeighList *list = pair->list;
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii];
+    const int *jlist = list->firstneigh[i];
+    for (int jj = 0; jj < list->numneigh[i]; jj++) {
+      const int j = jlist[jj] & NEIGHMASK;
+      const Vec3 d = to_vec3(x[i]) - to_vec3(x[j]);
+      const double reach = radius[i] + radius[j];
+      if (dot(d, d) < reach * reach) touching.push_back({i, j, pair, false, {0.0, 0.0}});
+    }
+  }
+}
+
+/* ----------------------------------------------------------------------
+   with the force of the last evaluation, which had none for a contact that has only just begun
+------------------------------------------------------------------------- */
+
+GranularPairs::Load GranularPairs::load(const Contact &c) const
+{
+  const Vec3 force = contact_force(c);
+  return {dot(force, to_vec3(atom->v[c.i]) - to_vec3(atom->v[c.j])), norm(force)};
+}
+
+Vec3 GranularPairs::contact_force(const Contact &c) const
+{
+  FixContactPropertyAtom *forces = static_cast<PairGran *>(c.pair)->fix_contact_forces();
+  const int partner = forces->has_partner(c.i, atom->tag[c.j]);
+  return partner < 0 ? Vec3{0.0, 0.0, 0.0} : to_vec3(forces->contacthistory(c.i, partner));
+}
+
+/* ---------------------------------------------------------------------- */
+
+double GranularPairs::stiffness(const Contact &c) const
+{
+  const int n = atom->ntypes;
+  auto *kn = modify->find_fix_property("kn", "property/global", "peratomtypepair", n, n, "cluster/breakmerge");
+  return static_cast<FixPropertyGlobal *>(kn)->compute_array(atom->type[c.i] - 1, atom->type[c.j] - 1);
+}
