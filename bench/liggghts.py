@@ -64,16 +64,19 @@ def gran_cluster(friction: float) -> str:
     return f"pair_style gran/cluster {K_N} {RESTITUTION} {friction} tangential linear\npair_coeff * *"
 
 
-def liggghts(n: int, tangential: str) -> dict[str, str]:
-    """The damping of this engine goes with the mass of the pair: made here for two clusters of n particles."""
+def liggghts(n: int, tangential: str, friction: float) -> dict[str, str]:
+    """The damping of this engine goes with the mass of the pair: made here for two clusters of n particles.
+
+    Without friction, too, a tangential model is named: only combinations of its list does LIGGGHTS run at full speed.
+    """
     log_e = math.log(RESTITUTION)
     reduced_mass = 0.5 * n * math.pi / 6 * D_P**3 * 2000.0
     gamma = -2 * log_e / math.hypot(math.pi, log_e) * math.sqrt(K_N / reduced_mass)
-    values = {"kn": K_N, "kt": K_T, "gamman": gamma, "gammat": gamma, "coefficientFriction": FRICTION}
+    values = {"kn": K_N, "kt": K_T, "gamman": gamma, "gammat": gamma, "coefficientFriction": friction}
     given = "".join(f"fix {k} all property/global {k} peratomtypepair 1 {v!r}\n" for k, v in values.items())
     return {
         "head": "atom_style granular\natom_modify map array\nnewton off\ncommunicate single vel yes",
-        "pair": f"{given}pair_style gran model hooke/stiffness {tangential}\npair_coeff * *",
+        "pair": f"{given}pair_style gran model hooke/stiffness tangential {tangential}\npair_coeff * *",
     }
 
 
@@ -82,14 +85,15 @@ def variants(n: int) -> dict[str, dict[str, tuple[str, dict[str, str]]]]:
     return {
         "friction with history, rotation": {
             "LIGGGHTS, hooke/stiffness tangential history": (
-                LIGGGHTS, liggghts(n, "tangential history") | {"motion": apart("nve/sphere")}),
+                LIGGGHTS, liggghts(n, "history", FRICTION) | {"motion": apart("nve/sphere")}),
             "LAMMPS, pair granular linear_history": (
                 LMP, lammps("sphere", granular(f"linear_history {K_T!r} 1.0 {FRICTION}")) | {"motion": apart("nve/sphere")}),
             "plugin, pair gran/cluster tangential linear": (
                 LMP, lammps("sphere", gran_cluster(FRICTION)) | {"motion": apart("nve/sphere")}),
         },
         "no friction, no rotation": {
-            "LIGGGHTS, hooke/stiffness, nve": (LIGGGHTS, liggghts(n, "tangential off") | {"motion": apart("nve")}),
+            "LIGGGHTS, hooke/stiffness tangential no_history, nve": (
+                LIGGGHTS, liggghts(n, "no_history", 0.0) | {"motion": apart("nve")}),
             "LAMMPS, pair granular, nve": (LMP, lammps("sphere", granular("linear_nohistory 0.0 0.0")) | {"motion": apart("nve")}),
             "plugin, pair gran/cluster, atom_style cluster, nve/cluster": (
                 LMP, lammps("cluster", gran_cluster(0.0)) | {"motion": "fix move all nve/cluster gravity 9.81 0 0 -1"}),
