@@ -51,7 +51,10 @@ class ErrorWords {
   template <class... Args>
   [[noreturn]] void one(const char *file, int line, const std::string &text, const Args &...args)
   {
-    real->one(file, line, fmt::format(text, args...).c_str());
+    const std::string message = fmt::format(text, args...);
+    // LIGGGHTS prints to a buffer, which MPI_Abort loses where the output is no terminal
+    std::fprintf(stderr, "ERROR: %s\n", message.c_str());
+    real->one(file, line, message.c_str());
     std::abort();
   }
   template <class... Args>
@@ -107,17 +110,17 @@ class CommWords {
   }
 
   void forward_comm() { real->forward_comm(); }
+  // the size of a message, for one cluster, is asked back by pack_comm(); buffers are made for the largest
   void forward_comm(Fix *fix, int size)
   {
+    const int most = fix->comm_forward;
     fix->comm_forward = size;
     real->forward_comm_fix(fix);
+    fix->comm_forward = most;
   }
-  void reverse_comm(Fix *fix, int size)
-  {
-    fix->comm_reverse = size;
-    real->reverse_comm_fix(fix);
-  }
-  void reverse_comm_variable(Fix *fix) { real->reverse_comm_variable_fix(fix); }
+  // newton is off: a rank knows all contacts of its clusters
+  void reverse_comm(Fix *, int) {}
+  void reverse_comm_variable(Fix *) {}
 
  private:
   Comm *real;
@@ -156,7 +159,8 @@ class EngineFix : public Fix {
 
   int pack_comm(int n, int *list, double *buf, int pbc_flag, int *pbc) final
   {
-    return pack_forward_comm(n, list, buf, pbc_flag, pbc);
+    pack_forward_comm(n, list, buf, pbc_flag, pbc);
+    return comm_forward;
   }
   void unpack_comm(int n, int first, double *buf) final { unpack_forward_comm(n, first, buf); }
 

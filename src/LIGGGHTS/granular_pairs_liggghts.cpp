@@ -30,6 +30,7 @@ void GranularPairs::find(const std::string &fix, int, double)
               force->pair_style ? force->pair_style : "none");
   if (!gran->contact_match("normal", "hooke/stiffness"))
     words.all(FLERR, "{} needs a linear contact: pair_style gran model hooke/stiffness", fix);
+  if (force->newton_pair) words.all(FLERR, "{} needs the contacts across ranks on both of them: newton off", fix);
   pairs.push_back(gran);
 }
 

@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+from clusterdem.start import write_start
+from lammps_run import ROOT, run_file
 from lammps_run import run as run_lammps
-from liggghts_run import agree, in_both, needs_liggghts, write_data
+from liggghts_run import agree, in_both, needs_liggghts, run_liggghts, write_data
 from scenes import BREAKUPS, MERGES, busy
 
 pytestmark = needs_liggghts
@@ -66,3 +68,26 @@ def test_the_same_breaks_and_merges(state):
         ours, theirs = a.table(), b.table()
         assert ours[-1][BREAKUPS] > 0 and ours[-1][MERGES] > 0
         np.testing.assert_array_equal(ours[:, : MERGES + 1], theirs[:, : MERGES + 1])  # six digits of counts below 1e6
+
+
+def test_the_cases_start_alike(tmp_path):
+    """Case 1 in both engines from one file of `clusterdem start`: the same clusters after 100 steps of 1 us, before any
+    contact. Frames of LIGGGHTS have six digits."""
+    start = write_start(tmp_path / "start.data", 5000, 400, (0.3, 0.003, 0.6), seed=1)
+    arguments = {"inputs": ROOT / "inputs", "start_file": start, "tend": 1e-4}
+    text = (ROOT / "inputs" / "liggghts" / "case1.in").read_text()
+    values = "".join(f"variable {name} index {value}\n" for name, value in arguments.items())
+    theirs = run_liggghts(tmp_path / "liggghts", values + text).dump("case1.00000100.dump")
+    ours = run_file(tmp_path / "lammps", ["-in", str(ROOT / "inputs" / "case1.in")], **arguments).dump("case1.00000100.dump")
+    assert len(ours["id"]) > 5500 and np.array_equal(ours["id"], theirs["id"])
+    assert np.array_equal(ours["n"], theirs["f_size[1]"])
+    np.testing.assert_allclose(ours["z"], theirs["z"], rtol=1e-5)
+
+
+@pytest.mark.parametrize("reading", "ABCE")
+def test_the_readings_are_those_of_lammps(reading):
+    """LIGGGHTS needs files of its own, in which only what it cannot replace is written out."""
+    ours = (ROOT / "inputs" / f"reading_{reading}.in").read_text()
+    theirs = (ROOT / "inputs" / "liggghts" / f"reading_{reading}.in").read_text()
+    ours = ours.replace("${cells_x} 1 ${cells_z}", "30 1 30").replace('"${case} == case1"', '"${u_g} == 2"')
+    assert ours == theirs
