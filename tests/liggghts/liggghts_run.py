@@ -34,9 +34,10 @@ def run_liggghts(folder: Path, script: str, np_: int = 1, check: bool = True) ->
         environment |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
     command = [*launch(np_), str(WRAPPER), "-in", "in.liggghts", "-log", "log.liggghts"]
     done = subprocess.run(
-        command, cwd=folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=300
+        command, cwd=folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, timeout=300
     )
-    run = Run(done.returncode, done.stdout + done.stderr, folder)
+    output = (done.stdout + done.stderr).decode(errors="replace")  # its warnings may hold any bytes
+    run = Run(done.returncode, output, folder)
     if check:
         assert run.code == 0, run.output[-3000:]
     return run
