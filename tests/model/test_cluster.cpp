@@ -24,6 +24,7 @@ TEST(ClusterGeometry, ClusterAsASphereHasTheBulkDensity)
   // rho_p (1 - voidage) = 1000 kg/m^3 for the paper; a cube of a cube root costs a few roundings
   const double d = paper_geometry.diameter(400);
   EXPECT_TRUE(relatively_near(paper_geometry.mass(400) / (PI / 6.0 * d * d * d), 1000.0, 16.0 * EPS));
+  EXPECT_EQ(paper_geometry.density(), 1000.0);
 }
 
 TEST(ClusterGeometry, SolidsFractionOfThePapersBoxes)
