@@ -69,7 +69,7 @@ def test_one_file_with_everything_inside(page):
         "Engine time",
         "Events",
         "What this scene needs",
-        "N_cc decided 0.4 % of the breakups, yet is 5 % of the power that sets their sizes: try -var ncc 0.",
+        "N_cc decided 0.4 % of the breakups, and is 5 % of the power behind them: a minor part, try -var ncc 0.",
         "N_smf kept 25 % of the clusters whole at a check and decided 30 % of the merges: needed.",
         "in units of its weight: drag 0.5, the forces of contacts 0.00025.",
         "paper&#x27;s scale",
@@ -90,8 +90,10 @@ def test_needs_of_older_tables_and_quiet_runs():
     assert "No cluster broke." in said and "Nothing merged" in said and "Contact forces were zero" in said
     sheared = {"weight": [1.0], "tests": [900.0], "breakups": [10.0], "born": [30.0], "share_cc": [6.0], "share_st": [4.0]}
     said = " ".join(statements(needs_of(quiet | sheared | {"breakups_by_cc": [5.0], "merges": [4.0], "F_contact": [3.0]})))
-    assert "N_cc decided 50 % of the breakups: needed." in said
+    assert "N_cc decided 50 % of the breakups, and is 60 % of the power behind them: needed." in said
     assert "Merges took back 20 % of the clusters that breakups made (4 merges): needed." in said
+    said = " ".join(statements(needs_of(quiet | sheared | {"share_cc": [0.0], "merges": [0.1]})))
+    assert "N_cc decided none of the breakups, and is none of the power behind them: this run could do without (-var ncc 0)." in said
 
 
 @pytest.mark.skipif(CHROMIUM is None, reason="needs chromium")

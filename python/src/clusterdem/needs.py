@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from .frame import Floats
 
-NEGLIGIBLE = 0.01
-"""A share below which a term is worth a run without it."""
+NEGLIGIBLE, MINOR = 0.01, 0.1
+"""Shares below which a run could do without a term, and below which a run without it is worth a try."""
 
 COLUMNS = (
     "tests share_st share_cc share_mf breakups_by_st breakups_by_cc whole_by_st whole_by_mf "
@@ -97,15 +97,17 @@ def percent(share: float) -> str:
     return "none" if share == 0 else f"{100 * share:.0f} %" if share >= 0.095 else f"{100 * share:.2g} %"
 
 
+def _verdict(share: float, off: str) -> str:
+    if share < NEGLIGIBLE:
+        return f"this run could do without ({off})"
+    return f"a minor part, try {off}" if share < MINOR else "needed"
+
+
 def _of_breakups(term: Term, off: str) -> str:
     said = f"{term.name} decided {percent(term.breakups)} of the breakups"
     if term.whole >= NEGLIGIBLE:
         said += f" and kept {percent(term.whole)} of the clusters whole at a check"
-    if term.decides >= NEGLIGIBLE:
-        return f"{said}: needed."
-    if term.share >= NEGLIGIBLE:
-        return f"{said}, yet is {percent(term.share)} of the power that sets their sizes: try {off}."
-    return f"{said} and is {percent(term.share)} of the power behind them: this run could do without ({off})."
+    return f"{said}, and is {percent(term.share)} of the power behind them: {_verdict(max(term.decides, term.share), off)}."
 
 
 def statements(needs: Needs) -> list[str]:
@@ -117,13 +119,13 @@ def statements(needs: Needs) -> list[str]:
     else:
         said.append("No cluster broke.")
     held = f"N_smf kept {percent(mf.whole)} of the clusters whole at a check and decided {percent(mf.merges)} of the merges"
-    said.append(f"{held}: {'needed' if mf.decides >= NEGLIGIBLE else 'try terms st cc'}.")
+    said.append(f"{held}: {_verdict(mf.decides, 'terms st cc')}.")
     if needs.merges == 0:
         said.append("Nothing merged: this run could do without merging (-var merge no).")
     else:
         ratio = _ratio(needs.merges, needs.born - needs.breakups)
         text = f"Merges took back {percent(ratio)} of the clusters that breakups made" if ratio else "Clusters merged"
-        said.append(f"{text} ({needs.merges:,} merges): {'needed' if not 0 < ratio < NEGLIGIBLE else 'try -var merge no'}.")
+        said.append(f"{text} ({needs.merges:,} merges): {_verdict(ratio or 1.0, '-var merge no')}.")
     forces = {"drag": needs.drag, "the forces of contacts": needs.contact}
     loads = ", ".join(f"{name} {value:.2g}" for name, value in forces.items() if value > 0)
     if loads:
