@@ -37,9 +37,9 @@ FixClusterBreakMerge::FixClusterBreakMerge(LAMMPS *lmp, int narg, char **arg) :
     term_st(true), term_cc(true), term_mf(true), test(ALWAYS), hysteresis(0.26), breaking(true),
     merging(true), break_refused(false), merge_tolerance(0.01), gravity(9.81), gravity_axis(2),
     claim_max(0.0), planar(true), spacing(2.0), rule{}, u_mf(0.0), drag(nullptr), pairs(lmp),
-    count(nullptr), nmax_check(0), stable(nullptr), power(nullptr), ncontacts(nullptr),
+    count(nullptr), nmax_check(0), stable(nullptr), power(nullptr), ncontacts(nullptr), contact_force(0.0),
     suitor(nullptr), needs(nullptr), room(nullptr), proceeds(nullptr), comm_stage(CONTACTS), totals{},
-    newborn_tags(lmp), forces{}, output{}, output_step(-1)
+    newborn_tags(lmp), output{}, output_step(-1)
 {
   force_reneighbor = 1;
   next_reneighbor = -1;
@@ -358,7 +358,7 @@ void FixClusterBreakMerge::post_integrate()
   // clusters have moved, their ghosts have not
   if (looks_at_contacts()) comm->forward_comm();
   measure();
-  for (int k = 0; k < NFORCES; k++) totals[DRAG_FORCE + k] += forces[k];
+  note_forces();
   if (looks_at_contacts()) pairs.expect_contacts(next_check(update->ntimestep));
   if (breaking) propose_breaks();
   if (merging) propose_merges();

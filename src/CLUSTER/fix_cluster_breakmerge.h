@@ -115,6 +115,7 @@ class FixClusterBreakMerge : public EngineFix {
   int *stable;                                   // n_l; negative once the cluster is to break
   double *power;                                 // sum of F_ij . dU_ij
   int *ncontacts;
+  double contact_force;                          // sum over my clusters of |F_ij|
   struct Suitor {                                // best partner to merge with
     double slip;                                 // |dV| / min |V|
     double stiffness;                            // of their contact
@@ -153,10 +154,8 @@ class FixClusterBreakMerge : public EngineFix {
     TESTS, SHARE_ST, SHARE_CC, SHARE_MF, BREAKUPS_BY_ST, BREAKUPS_BY_CC, WHOLE_BY_ST, WHOLE_BY_MF, MERGES_BY_ST,
     MERGES_BY_MF, DRAG_FORCE, CONTACT_FORCE, WEIGHT, NTOTALS
   };
-  static constexpr int NFORCES = NTOTALS - DRAG_FORCE;
   double totals[NTOTALS];
   NewbornTags newborn_tags;
-  double forces[NFORCES];    // sums over my clusters at the last check
   double output[5 + NTOTALS];
   bigint output_step;
 
@@ -192,6 +191,7 @@ class FixClusterBreakMerge : public EngineFix {
 
   // fix_cluster_breakmerge_needs.cpp: which terms decide
   ClusterDEM::PowerParts power_parts(int i) const;
+  void note_forces();
   void note_whole(int i);
   void note_breakup(int i);
   int needed_to_merge(int i, int n) const;

@@ -100,7 +100,7 @@ void FixClusterBreakMerge::measure()
   check_finite();
   for (int i = 0; i < atom->nlocal; i++)
     if (atom->mask[i] & groupbit) particle_count(i);
-  for (double &force : forces) force = 0.0;
+  contact_force = 0.0;
   if (looks_at_contacts()) add_up_contacts();
   if (term_st) drag->prepare();
   if (averages) average_cells();
@@ -135,7 +135,7 @@ void FixClusterBreakMerge::add_up_contacts()
     const bool both = force->newton_pair || j < nlocal;
     GranularPairs::Load load = {0.0, 0.0};
     if (want_power || contact.noted) load = pairs.load(contact);
-    forces[CONTACT_FORCE - DRAG_FORCE] +=
+    contact_force +=
         load.force * ((atom->mask[i] & groupbit ? 1 : 0) + (both && atom->mask[j] & groupbit ? 1 : 0));
     if (want_sums) {
       power[i] += load.power;
@@ -183,7 +183,6 @@ void FixClusterBreakMerge::average_cells()
 void FixClusterBreakMerge::find_stable_sizes()
 {
   const double particle_mass = geometry.particle_mass();
-  double drag_force = 0.0, mass = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) {
       stable[i] = needs[i] = 0;
@@ -193,23 +192,19 @@ void FixClusterBreakMerge::find_stable_sizes()
     const Vec3 v = to_vec3(atom->v[i]);
     double gas = 0.0, contacts = 0.0, fluidization = 0.0;
 
-    if (term_st) {
+    if (term_st && nst == NstReading::CELL)
+      gas = averages->total(x, CellAverages::DRAG_POWER) / averages->total(x, CellAverages::MASS);
+    else if (term_st) {
       const Vec3 u = drag->gas_velocity(i);
       const Vec3 slip = drag->in_plane(u - v);
       const double speed = norm(slip);
-      const double b = drag->cluster_coefficient(i, speed);
-      drag_force += b * speed;
-      if (nst == NstReading::CELL)
-        gas = averages->total(x, CellAverages::DRAG_POWER) / averages->total(x, CellAverages::MASS);
-      else if (nst == NstReading::CLUSTER)
-        gas = n_st(b * slip, u, atom->rmass[i]);
-      else {
-        const double single = drag_coefficient(drag->drag_law(), drag->gas_properties(), geometry.d_p, speed);
-        gas = n_st(single * slip, u, particle_mass);
-      }
+      const bool single = nst == NstReading::PARTICLE;
+      const double b = single
+          ? drag_coefficient(drag->drag_law(), drag->gas_properties(), geometry.d_p, speed)
+          : drag->cluster_coefficient(i, speed);
+      gas = n_st(b * slip, u, single ? particle_mass : atom->rmass[i]);
     }
     if (looks_at_power()) contacts = n_cc(power[i], atom->rmass[i], ncc_factor);
-    mass += atom->rmass[i];
     if (term_mf) {
       double speed = std::fabs(v[gravity_axis]);
       if (up != UpReading::OWN) {
@@ -229,8 +224,6 @@ void FixClusterBreakMerge::find_stable_sizes()
     row[4] = contacts;
     row[5] = fluidization;
   }
-  forces[0] = drag_force;
-  forces[WEIGHT - DRAG_FORCE] = mass * gravity;
 }
 
 /* ----------------------------------------------------------------------

@@ -2,9 +2,11 @@
    Cluster DEM for LAMMPS. Distributed under the GNU General Public License, version 2 or later.
 ------------------------------------------------------------------------- */
 
-// What the scene needs: which terms of E_in* decide its events.
+// What the scene needs: which terms of E_in* decide its events, which forces act on its clusters.
 
 #include "fix_cluster_breakmerge.h"
+
+#include "fix_drag_cluster.h"
 
 #include "atom.h"
 
@@ -17,6 +19,23 @@ PowerParts FixClusterBreakMerge::power_parts(int i) const
 {
   const double *row = array_atom[i];
   return {row[3], row[4], row[5]};
+}
+
+/* ----------------------------------------------------------------------
+   forces as they last acted, at a check: nothing is evaluated for this alone
+------------------------------------------------------------------------- */
+
+void FixClusterBreakMerge::note_forces()
+{
+  double drag_force = 0.0, mass = 0.0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    if (drag) drag_force += norm(drag->force_on(i));
+    mass += atom->rmass[i];
+  }
+  totals[DRAG_FORCE] += drag_force;
+  totals[CONTACT_FORCE] += contact_force;
+  totals[WEIGHT] += mass * gravity;
 }
 
 /* ----------------------------------------------------------------------

@@ -46,6 +46,7 @@ class FixDragCluster : public EngineFix {
   ClusterDEM::Vec3 gas_velocity(int i);
   double cluster_coefficient(int i, double slip_speed) const;
   ClusterDEM::Vec3 in_plane(const ClusterDEM::Vec3 &force) const;
+  ClusterDEM::Vec3 force_on(int i) const { return ClusterDEM::to_vec3(array_atom[i] + 3); }    // as last computed
   const ClusterDEM::DragLaw &drag_law() const { return *law; }
   const ClusterDEM::Gas &gas_properties() const { return gas; }
 

@@ -113,8 +113,11 @@ def test_what_is_off_is_not_looked_at(tmp_path):
         assert found["contact"] == pytest.approx(seen, rel=1e-7), name
     # forces of other pair styles are asked for N_cc alone
     assert needs(run(tmp_path / "granular", scene(rows, "K 1 terms st cc mf ncc 0")))["contact"] == 0.0
-    # no N_st, no look at the gas
-    assert needs(run(tmp_path / "no gas", scene(rows, "K 1 terms cc mf")))["drag"] == 0.0
+    # drag is known to its own fix, without N_st, too; to nobody if no such fix is named
+    speed = np.hypot(0.2, 2.0)
+    for name, terms, seen in (("drag", "drag drag umf 0.01", 2 * stokes(diameter(400)) * speed), ("no drag", "umf 0.01", 0.0)):
+        text = scene(rows, "K 1 terms cc mf").replace("drag drag K 1", f"{terms} K 1")
+        assert needs(run(tmp_path / name, text))["drag"] == pytest.approx(seen, rel=1e-9), name
 
 
 COUNTS = ["tests", "breakups_by_st", "breakups_by_cc", "whole_by_st", "whole_by_mf", "merges_by_st", "merges_by_mf"]
