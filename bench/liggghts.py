@@ -1,7 +1,7 @@
 """Our plugin and stock LAMMPS against LIGGGHTS, on equal clusters and contacts: python bench/liggghts.py [clusters ...]
 
-No events. The same start positions (one data file), forces, step, skin, bins, output and atoms' freedoms for every engine;
-CPU time of the time loop, engines turn by turn, ratios within a turn, median of seven turns.
+No events. The same start positions (one data file), forces, step, skin, bins, output and freedoms for every engine; CPU
+time of the time loop, engines turn by turn, ratios within a turn, median of seven turns.
 """
 
 from __future__ import annotations
@@ -87,14 +87,16 @@ def variants(n: int) -> dict[str, dict[str, tuple[str, dict[str, str]]]]:
             "LIGGGHTS, hooke/stiffness tangential history": (
                 LIGGGHTS, liggghts(n, "history", FRICTION) | {"motion": apart("nve/sphere")}),
             "LAMMPS, pair granular linear_history": (
-                LMP, lammps("sphere", granular(f"linear_history {K_T!r} 1.0 {FRICTION}")) | {"motion": apart("nve/sphere")}),
+                LMP,
+                lammps("sphere", granular(f"linear_history {K_T!r} 1.0 {FRICTION}")) | {"motion": apart("nve/sphere")}),
             "plugin, pair gran/cluster tangential linear": (
                 LMP, lammps("sphere", gran_cluster(FRICTION)) | {"motion": apart("nve/sphere")}),
         },
         "no friction, no rotation": {
             "LIGGGHTS, hooke/stiffness tangential no_history, nve": (
                 LIGGGHTS, liggghts(n, "no_history", 0.0) | {"motion": apart("nve")}),
-            "LAMMPS, pair granular, nve": (LMP, lammps("sphere", granular("linear_nohistory 0.0 0.0")) | {"motion": apart("nve")}),
+            "LAMMPS, pair granular, nve": (
+                LMP, lammps("sphere", granular("linear_nohistory 0.0 0.0")) | {"motion": apart("nve")}),
             "plugin, pair gran/cluster, atom_style cluster, nve/cluster": (
                 LMP, lammps("cluster", gran_cluster(0.0)) | {"motion": "fix move all nve/cluster gravity 9.81 0 0 -1"}),
         },
@@ -102,11 +104,12 @@ def variants(n: int) -> dict[str, dict[str, tuple[str, dict[str, str]]]]:
 
 
 def run(folder: Path, engine: str, script: str) -> tuple[float, str]:
-    """CPU seconds of the time loop: its wall time times the share of a core that the process got. And what was printed."""
+    """CPU seconds of the time loop, its wall time times the share of a core that the process got; and the output."""
     (folder / "in.bench").write_text(script)
     before, start = os.times(), time.perf_counter()
     done = subprocess.run(
-        [engine, "-in", "in.bench", "-log", "none"], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True
+        [engine, "-in", "in.bench", "-log", "none"],
+        cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True,
     )
     wall, after = time.perf_counter() - start, os.times()
     if done.returncode:
@@ -145,7 +148,7 @@ def compare(folder: Path, count: int, n: int) -> None:
         print(f"{count} clusters of {n} particles, {scene}, {steps} steps:")
         for name, (median, low, high) in ratios(times, base).items():
             cost = 1e9 * statistics.median(times[name]) / count / steps
-            pair, neigh = (cost * statistics.median(share(phase, o) for o in outputs[name]) for phase in ("Pair", "Neigh"))
+            pair, neigh = (cost * statistics.median(share(p, o) for o in outputs[name]) for p in ("Pair", "Neigh"))
             print(
                 f"  {name}: {cost:.1f} ns per cluster-step (pair {pair:.1f}, neighbor lists {neigh:.1f}), "
                 f"{1 / median:.2f} times as fast ({1 / high:.2f} to {1 / low:.2f}), "

@@ -1,7 +1,7 @@
 # The paper's cases and one of our own: run, map, compare.
 # shellcheck shell=bash
 
-verb_case1() { # the paper's case 1 with its maps: [--np N] [-var NAME VALUE …]
+verb_case1() { # the paper's case 1 with its maps: [--np N] [--engine liggghts] [-var NAME VALUE …]
   run_case case1 "$@"
 }
 verb_case2() { # the paper's case 2, the same way
@@ -15,9 +15,10 @@ verb_shear() { # a sheared crowd, where contacts decide breakups, the same way
   run_case shear "$@"
 }
 
-# run_case NAME [--np N] [arguments of lmp…]: all that it writes goes to results/NAME (or -var outdir).
+# run_case NAME [--np N] [--engine liggghts] [arguments of the engine…]: all that it writes goes to results/NAME (or -var
+# outdir).
 run_case() {
-  local name=$1 out=$root/results/$1 launch=() arguments=()
+  local name=$1 out='' launch=() arguments=() engine=lmp input=inputs/$1.in start='' dt=()
   shift
   local given=("$@")
   while (($#)); do
@@ -25,23 +26,39 @@ run_case() {
       [[ ${2:-} =~ ^[1-9][0-9]*$ ]] || die "--np wants the number of ranks, as in: ./run $name --np 2"
       launch=(mpirun -np "$2")
       shift 2
+    elif [[ $1 == --engine ]]; then
+      [[ ${2:-} =~ ^(lammps|liggghts)$ ]] || die "--engine wants lammps or liggghts"
+      [[ $2 == lammps ]] || engine=liggghts-cluster input=inputs/liggghts/$name.in
+      shift 2
     elif [[ $1 =~ ^--?v(ar)?$ && ${2:-} == outdir ]]; then
       out=$(realpath -m "${3:?-var outdir wants a folder}")
       shift 3
     else
+      [[ $1 != start_file ]] || start=given
       arguments+=("$1")
       shift
     fi
   done
   set_up pinned
   cd "$root"
+  out=${out:-$root/results/$name}
   make_folder "$out"
   rm -f "$out/$name".*.dump # frames of an earlier run
+  if [[ $engine == liggghts-cluster ]]; then
+    [[ -e $input ]] || die "there is no $name for LIGGGHTS: inputs/liggghts holds case1, case2, case3."
+    set_up_liggghts
+    if [[ ! $start ]]; then
+      build/bin/clusterdem start --case "$name" --out "$out/start.data"
+      arguments+=(-var start_file "$out/start.data")
+    fi
+  fi
   echo "./run $name ${given[*]}" >"$out/command.txt" # quoted by the report
   # Of a variable given twice LAMMPS keeps the first value: the user's come first.
-  "${launch[@]}" build/bin/lmp "${arguments[@]}" -in "inputs/$name.in" -log "$out/$name.log" \
+  "${launch[@]}" "build/bin/$engine" "${arguments[@]}" -in "$input" -log "$out/$name.log" \
     -var outdir "$out" </dev/null
-  build/bin/clusterdem map "$out/$name".*.dump --grid 30 30 --out "$out"
-  [[ $name != case* ]] || build/bin/clusterdem compare "$out/$name".*.dump --case "$name" # what was published
-  build/bin/clusterdem report "$out" --name "$name"
+  # frames of LIGGGHTS hold no time: the last row of the table knows both
+  [[ $engine == lmp ]] || dt=(--dt "$(awk '$1 > 0 { dt = $2 / $1 } END { print dt }' "$out/$name.N.txt")")
+  build/bin/clusterdem map "$out/$name".*.dump --grid 30 30 --out "$out" "${dt[@]}"
+  [[ $name != case* ]] || build/bin/clusterdem compare "$out/$name".*.dump --case "$name" "${dt[@]}" # what was published
+  build/bin/clusterdem report "$out" --name "$name" "${dt[@]}"
 }

@@ -44,7 +44,7 @@ def run_liggghts(folder: Path, script: str, np_: int = 1, check: bool = True) ->
 
 
 def write_data(path: Path, n, x, v, box=(0.04, 0.003, 0.04)) -> None:
-    """Clusters of n[k] particles at x[k] with velocities v[k]; LAMMPS (sphere) and LIGGGHTS (granular) read it alike."""
+    """Clusters of n[k] particles at x[k] with velocities v[k]; both engines read it alike."""
     lines = ["clusters", "", f"{len(n)} atoms", "1 atom types"]
     lines += [f"0 {length!r} {axis}lo {axis}hi" for axis, length in zip("xyz", box)]
     lines += ["", "Atoms", ""]

@@ -61,9 +61,12 @@ def normal_restitution(n, gamma):
     ],
 )
 def test_both_engines_rebound_alike(tmp_path, offset, damped, motion, tolerance):
-    """Head on to rounding; oblique, without tangential damping, to 1e-7 of the speed of approach. With it they differ in how
-    friction is limited: LAMMPS limits spring and damping together to mu F_n, LIGGGHTS the spring alone, so that at first
-    touch the damping acts in full (measured: 11 % where clusters graze and do not turn). Rotation leaves 1 %."""
+    """Head on to rounding; oblique, without tangential damping, to 1e-7 of the speed of approach.
+
+    With it they differ in how friction is limited: LAMMPS limits spring and damping together to mu F_n, LIGGGHTS the
+    spring alone, so that at first touch the damping acts in full (measured: 11 % where clusters graze and do not turn).
+    Rotation leaves 1 %.
+    """
     meeting(tmp_path, 400, offset)
     script = f"fix move all {motion}\ntimestep {DT}\n{FIXES}run 1500\n"
     pairs = (

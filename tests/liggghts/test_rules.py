@@ -1,11 +1,19 @@
-"""What every engine must keep: particles, momentum, the same run on any number of ranks and after a restart; in LIGGGHTS."""
+"""In LIGGGHTS, too: particles and momentum are kept, the run is the same on any number of ranks and after a restart."""
 
 import numpy as np
 import pytest
 from clusterdem import read_file
 from lammps_run import D_P, RHO_P
 from lammps_run import run as run_lammps
-from liggghts_run import LIBRARY, needs_liggghts, pair_liggghts, run_liggghts, start_liggghts, write_data, write_liggghts
+from liggghts_run import (
+    LIBRARY,
+    needs_liggghts,
+    pair_liggghts,
+    run_liggghts,
+    start_liggghts,
+    write_data,
+    write_liggghts,
+)
 from scenes import BREAKUPS, MERGES, busy
 
 pytestmark = needs_liggghts

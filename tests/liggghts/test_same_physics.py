@@ -62,7 +62,9 @@ def test_the_same_breaks_and_merges(state):
     for steps, tolerance in ((1, 1e-12), (60, 1e-9)):
         a, b = in_both(state, MOTION + DRAG + size("ncc 0") + TABLE + f"run {steps}\n")
         lammps, liggghts = a.dump(), b.dump()
-        assert np.array_equal(lammps["id"], liggghts["id"]) and np.array_equal(lammps["f_size[1]"], liggghts["f_size[1]"])
+        assert np.array_equal(lammps["id"], liggghts["id"]) and np.array_equal(
+            lammps["f_size[1]"], liggghts["f_size[1]"]
+        )
         for column in ("x", "y", "z", "vx", "vy", "vz", "diameter", "mass"):
             agree(lammps, liggghts, column, tolerance)
         ours, theirs = a.table(), b.table()
@@ -72,13 +74,16 @@ def test_the_same_breaks_and_merges(state):
 
 def test_the_cases_start_alike(tmp_path):
     """Case 1 in both engines from one file of `clusterdem start`: the same clusters after 100 steps of 1 us, before any
-    contact. Frames of LIGGGHTS have six digits."""
+    contact. Frames of LIGGGHTS have six digits.
+    """
     start = write_start(tmp_path / "start.data", 5000, 400, (0.3, 0.003, 0.6), seed=1)
     arguments = {"inputs": ROOT / "inputs", "start_file": start, "tend": 1e-4}
     text = (ROOT / "inputs" / "liggghts" / "case1.in").read_text()
     values = "".join(f"variable {name} index {value}\n" for name, value in arguments.items())
     theirs = run_liggghts(tmp_path / "liggghts", values + text).dump("case1.00000100.dump")
-    ours = run_file(tmp_path / "lammps", ["-in", str(ROOT / "inputs" / "case1.in")], **arguments).dump("case1.00000100.dump")
+    ours = run_file(tmp_path / "lammps", ["-in", str(ROOT / "inputs" / "case1.in")], **arguments).dump(
+        "case1.00000100.dump"
+    )
     assert len(ours["id"]) > 5500 and np.array_equal(ours["id"], theirs["id"])
     assert np.array_equal(ours["n"], theirs["f_size[1]"])
     np.testing.assert_allclose(ours["z"], theirs["z"], rtol=1e-5)

@@ -74,7 +74,9 @@ def place(count: int, d: float, lengths: tuple[float, float], seed: int) -> Floa
                 centres[number] = x, z
                 break
         else:
-            raise InputError("start", f"no room for cluster {number + 1} of {count} after {TRIES} tries: fewer, or a larger box")
+            raise InputError(
+                "start", f"no room for cluster {number + 1} of {count} after {TRIES} tries: fewer, or a larger box"
+            )
     return centres
 
 
