@@ -157,7 +157,7 @@ def main() -> None:
         if options.traffic:
             if not shutil.which("valgrind"):
                 raise SystemExit("--traffic needs valgrind")
-            for layer in ("bare", "no events"):
+            for layer in LAYERS:
                 print(f"{layer}: {traffic(folder, layer):.0f} bytes fetched per cluster-step")
 
 
