@@ -89,6 +89,23 @@ def test_the_cases_start_alike(tmp_path):
     np.testing.assert_allclose(ours["z"], theirs["z"], rtol=1e-5)
 
 
+def test_case_1_grows_alike(tmp_path):
+    """Case 1 to 0.02 s, setting fast. Runs part once clusters have met: numbers within 2 %, the share of each size class
+    within 2 points, which is about the spread between seeds there (1.7 % of N, bench/trade.md).
+    """
+    start = write_start(tmp_path / "start.data", 5000, 400, (0.3, 0.003, 0.6), seed=1)
+    arguments = {"inputs": ROOT / "inputs", "start_file": start, "tend": 0.02, "setting": "fast"}
+    text = (ROOT / "inputs" / "liggghts" / "case1.in").read_text()
+    values = "".join(f"variable {name} index {value}\n" for name, value in arguments.items())
+    theirs = run_liggghts(tmp_path / "liggghts", values + text)
+    ours = run_file(tmp_path / "lammps", ["-in", str(ROOT / "inputs" / "case1.in")], **arguments)
+    for step in (2000, 4000):
+        a, b = (run.dump(f"case1.{step:08d}.dump")["diameter"] for run in (ours, theirs))
+        assert len(b) == pytest.approx(len(a), rel=0.02) and len(a) > 8000
+        shares = [np.histogram(d, [0, 3e-4, 6e-4, 9e-4, 1])[0] / len(d) for d in (a, b)]
+        np.testing.assert_allclose(*shares, atol=0.02)
+
+
 @pytest.mark.parametrize("reading", "ABCE")
 def test_the_readings_are_those_of_lammps(reading):
     """LIGGGHTS needs files of its own, in which only what it cannot replace is written out."""
