@@ -25,7 +25,9 @@ def loop_seconds(folder: Path, script: str, np_: int = 1) -> float:
     if np_ > 1:
         command = ["mpirun", "--oversubscribe", "-np", str(np_), *command]
     environment = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-    done = subprocess.run(command, cwd=folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    done = subprocess.run(
+        command, cwd=folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True
+    )
     if done.returncode:
         raise RuntimeError(done.stdout[-2000:] + done.stderr[-2000:])
     wall = float(re.findall(r"Loop time of (\S+)", done.stdout)[-1])
@@ -55,7 +57,8 @@ def ratios(times: dict[str, list[float]], base: str) -> dict[str, tuple[float, f
 
 def write_clusters(path: Path, count: int, n: int = 25, seed: int = 3, lx: float = 0.3, lz: float = 0.6) -> int:
     """A LAMMPS data file of about `count` clusters of n particles in the slab of the cases, none overlapping: a lattice
-    with each cluster moved at random inside its own square. Returns how many there are."""
+    with each cluster moved at random inside its own square. Returns how many there are.
+    """
     d = D_P * (2 * n) ** (1 / 3)
     nx = round((count * lx / lz) ** 0.5)
     nz = round(count / nx)

@@ -26,7 +26,9 @@ def whole_case(setting: str, ranks: int) -> dict[str, float]:
     with tempfile.TemporaryDirectory() as folder:
         command = [*launch, LMP, "-in", "inputs/case1.in", "-log", "none", "-var", "outdir", folder, *SETTINGS[setting]]
         environment = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-        done = subprocess.run(command, cwd=ROOT, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True)
+        done = subprocess.run(
+            command, cwd=ROOT, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True
+        )
         if done.returncode:
             raise RuntimeError(done.stdout[-2000:] + done.stderr[-2000:])
         table = [line.split() for line in (Path(folder) / "case1.N.txt").read_text().splitlines() if line[0] != "#"]
@@ -65,7 +67,9 @@ def main() -> None:
     for setting in SETTINGS:
         one, two = runs[setting, 1], runs[setting, 2]
         efficiency = [a["loop"] / b["loop"] / 2 for a, b in zip(one, two, strict=True)]
-        print(f"{setting}: efficiency of two ranks {statistics.median(efficiency):.2f} ({min(efficiency):.2f} to {max(efficiency):.2f})")
+        print(
+            f"{setting}: efficiency of two ranks {statistics.median(efficiency):.2f} ({min(efficiency):.2f} to {max(efficiency):.2f})"
+        )
 
 
 if __name__ == "__main__":

@@ -29,12 +29,24 @@ def counted(folder: Path, motion: str, refresh: int, steps: int) -> dict[str, in
     (folder / "in.lmp").write_text(script)
     out = folder / "callgrind.out"
     # the wrapper is a shell script: its last line starts the executable, which is what is to be counted
-    command = ["valgrind", "--tool=callgrind", "--trace-children=yes", f"--callgrind-out-file={out}.%p", LMP, "-in", "in.lmp", "-log", "none"]
+    command = [
+        "valgrind",
+        "--tool=callgrind",
+        "--trace-children=yes",
+        f"--callgrind-out-file={out}.%p",
+        LMP,
+        "-in",
+        "in.lmp",
+        "-log",
+        "none",
+    ]
     done = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True)
     if done.returncode:
         raise RuntimeError(done.stdout[-2000:] + done.stderr[-2000:])
     largest = max(folder.glob("callgrind.out.*"), key=lambda file: file.stat().st_size)
-    listing = subprocess.run(["callgrind_annotate", "--threshold=99.9", str(largest)], capture_output=True, text=True, check=True).stdout
+    listing = subprocess.run(
+        ["callgrind_annotate", "--threshold=99.9", str(largest)], capture_output=True, text=True, check=True
+    ).stdout
     for file in folder.glob("callgrind.out.*"):
         file.unlink()
     functions: dict[str, int] = {}
@@ -52,8 +64,11 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         count = write_clusters(folder / "clusters.data", 5_000)
-        for title, motion, refresh in (("nve, gravity, drag every step", APART, 1), ("nve, gravity, drag held for 50", APART, 50),
-                                       ("nve/cluster, drag held for 50", TOGETHER, 50)):
+        for title, motion, refresh in (
+            ("nve, gravity, drag every step", APART, 1),
+            ("nve, gravity, drag held for 50", APART, 50),
+            ("nve/cluster, drag held for 50", TOGETHER, 50),
+        ):
             try:
                 few, many = (counted(folder, motion, refresh, steps) for steps in STEPS)
             except RuntimeError as error:

@@ -58,17 +58,20 @@ LAYERS = {
     "drag 50, sizes every 100, no events": DRAG.format(50) + SIZE.format(100),
     "drag 50, sizes every 100, events": DRAG.format(50) + EVENTS.format(100),
 }
-FUSED = "nve/cluster, "    # the same with gravity and held drag in the pass that moves; has no rotation
+FUSED = "nve/cluster, "  # the same with gravity and held drag in the pass that moves; has no rotation
 
 
 def scripts(atoms: str, motion: str, pair: str, steps: int) -> dict[str, str]:
     apart = APART.format(motion)
     result = {
-        what: SCRIPT.format(atoms=atoms, motion=apart, pair=pair, ours=ours, steps=steps) for what, ours in LAYERS.items()
+        what: SCRIPT.format(atoms=atoms, motion=apart, pair=pair, ours=ours, steps=steps)
+        for what, ours in LAYERS.items()
     }
     if motion == "nve":
         for what in list(LAYERS)[3:]:
-            result[FUSED + what] = SCRIPT.format(atoms=atoms, motion=TOGETHER, pair=pair, ours=LAYERS[what], steps=steps)
+            result[FUSED + what] = SCRIPT.format(
+                atoms=atoms, motion=TOGETHER, pair=pair, ours=LAYERS[what], steps=steps
+            )
     return result
 
 

@@ -109,7 +109,10 @@ def run(folder: Path, engine: str, script: str) -> tuple[float, str]:
     before, start = os.times(), time.perf_counter()
     done = subprocess.run(
         [engine, "-in", "in.bench", "-log", "none"],
-        cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+        cwd=folder,
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
     )
     wall, after = time.perf_counter() - start, os.times()
     if done.returncode:

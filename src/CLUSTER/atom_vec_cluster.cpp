@@ -48,8 +48,10 @@ void AtomVecCluster::init()
   AtomVec::init();
   for (const auto &fix : modify->get_fix_by_style("^adapt"))
     if (fix->diam_flag)
-      error->all(FLERR, "Fix {} {} changes diameters, which atom_style cluster sends to other ranks only when the "
-                 "neighbor lists are rebuilt: use atom_style sphere 1", fix->style, fix->id);
+      error->all(FLERR,
+                 "Fix {} {} changes diameters, which atom_style cluster sends to other ranks only when the "
+                 "neighbor lists are rebuilt: use atom_style sphere 1",
+                 fix->style, fix->id);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -43,8 +43,10 @@ extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
 {
   auto lammps = (LAMMPS *) lmp;
   if (strcmp(lammps->version, LAMMPS_VERSION) != 0)
-    lammps->error->all(FLERR, "The CLUSTER plugin was built for LAMMPS {} but is loaded into LAMMPS {}: "
-                       "rebuild it against the source of this LAMMPS", LAMMPS_VERSION, lammps->version);
+    lammps->error->all(FLERR,
+                       "The CLUSTER plugin was built for LAMMPS {} but is loaded into LAMMPS {}: "
+                       "rebuild it against the source of this LAMMPS",
+                       LAMMPS_VERSION, lammps->version);
 
   auto register_style = (lammpsplugin_regfunc) regfunc;
   lammpsplugin_t plugin;
@@ -60,7 +62,8 @@ extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
       {"drag/cluster", "gas drag on particle clusters", &create_fix<FixDragCluster>},
       {"cluster/breakmerge", "size, breakup and merging of particle clusters", &create_fix<FixClusterBreakMerge>},
       {"cluster/timestep", "time step that rejects and halves", &create_fix<FixClusterTimestep>},
-      {"nve/cluster", "motion of particle clusters, with gravity and held drag in one pass", &create_fix<FixNVECluster>},
+      {"nve/cluster", "motion of particle clusters, with gravity and held drag in one pass",
+       &create_fix<FixNVECluster>},
   };
   for (const auto &fix : fixes) {
     plugin.name = fix.name;

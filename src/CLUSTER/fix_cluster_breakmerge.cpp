@@ -33,13 +33,12 @@ static constexpr double MOST_SITES = 1.0e7;    // of a lattice for fragments: 0.
 FixClusterBreakMerge::FixClusterBreakMerge(LAMMPS *lmp, int narg, char **arg) :
     EngineFix(lmp, narg, arg), geometry{0.0, 0.0, 0.5}, k_given(false), k_from_emms(false), k_value(0.0),
     umf_value(0.0), umf_from_wen_yu(true), eps_mf(0.5), cells_given(false), cells{1, 1, 1},
-    nst(NstReading::PARTICLE), nsmf(NsmfReading::EMMS), up(UpReading::OWN), ncc_factor(1.0),
-    term_st(true), term_cc(true), term_mf(true), test(ALWAYS), hysteresis(0.26), breaking(true),
-    merging(true), break_refused(false), merge_tolerance(0.01), gravity(9.81), gravity_axis(2),
-    claim_max(0.0), planar(true), spacing(2.0), rule{}, u_mf(0.0), drag(nullptr), pairs(lmp),
-    count(nullptr), nmax_check(0), stable(nullptr), power(nullptr), ncontacts(nullptr), contact_force(0.0),
-    suitor(nullptr), needs(nullptr), room(nullptr), proceeds(nullptr), comm_stage(CONTACTS), totals{},
-    newborn_tags(lmp), output{}, output_step(-1)
+    nst(NstReading::PARTICLE), nsmf(NsmfReading::EMMS), up(UpReading::OWN), ncc_factor(1.0), term_st(true),
+    term_cc(true), term_mf(true), test(ALWAYS), hysteresis(0.26), breaking(true), merging(true),
+    break_refused(false), merge_tolerance(0.01), gravity(9.81), gravity_axis(2), claim_max(0.0), planar(true),
+    spacing(2.0), rule{}, u_mf(0.0), drag(nullptr), pairs(lmp), count(nullptr), nmax_check(0), stable(nullptr),
+    power(nullptr), ncontacts(nullptr), contact_force(0.0), suitor(nullptr), needs(nullptr), room(nullptr),
+    proceeds(nullptr), comm_stage(CONTACTS), totals{}, newborn_tags(lmp), output{}, output_step(-1)
 {
   force_reneighbor = 1;
   next_reneighbor = -1;
@@ -59,12 +58,13 @@ FixClusterBreakMerge::FixClusterBreakMerge(LAMMPS *lmp, int narg, char **arg) :
   if (!atom->radius_flag || !atom->rmass_flag)
     error->all(FLERR, "Fix {} requires atom style sphere or cluster: clusters have a diameter and a mass", style);
   if (domain->dimension == 2)
-    error->all(FLERR, "Fix {} requires a 3-d simulation (clusters are spheres): for motion in a plane "
-               "use dimension 3 with 'plane xz'", style);
+    error->all(FLERR,
+               "Fix {} requires a 3-d simulation (clusters are spheres): for motion in a plane "
+               "use dimension 3 with 'plane xz'",
+               style);
   if (domain->triclinic) error->all(FLERR, "Fix {} does not support triclinic boxes", style);
   if (!atom->tag_enable) error->all(FLERR, "Fix {} requires atom IDs", style);
-  if (force->pair == nullptr)
-    error->all(FLERR, "Fix {} must be defined after the pair_style command", style);
+  if (force->pair == nullptr) error->all(FLERR, "Fix {} must be defined after the pair_style command", style);
 
   StyleArguments args(lmp, narg, arg, 3);
   nevery = args.integer("Nevery", 1);
@@ -128,26 +128,23 @@ void FixClusterBreakMerge::parse(StyleArguments &args)
       cells_given = true;
       double all = 1.0;
       for (int &n : cells) all *= n = args.integer("grid", 1);
-      if (all > CellAverages::MOST) args.refuse("grid", fmt::format("at most {} cells in all", CellAverages::MOST));
+      if (all > CellAverages::MOST)
+        args.refuse("grid", fmt::format("at most {} cells in all", CellAverages::MOST));
     } else if (keyword == "nst")
       nst = static_cast<NstReading>(args.choice(keyword, {"particle", "cluster", "cell"}));
-    else if (keyword == "nsmf")
-      nsmf = static_cast<NsmfReading>(args.choice(keyword, {"emms", "paper"}));
-    else if (keyword == "up")
-      up = static_cast<UpReading>(args.choice(keyword, {"own", "cell", "superficial"}));
+    else if (keyword == "nsmf") nsmf = static_cast<NsmfReading>(args.choice(keyword, {"emms", "paper"}));
+    else if (keyword == "up") up = static_cast<UpReading>(args.choice(keyword, {"own", "cell", "superficial"}));
     else if (keyword == "ncc") {
       ncc_factor = args.number(keyword, "a number >= 0");
       if (ncc_factor < 0.0) args.refuse(keyword, "a number >= 0");
-    } else if (keyword == "terms")
-      parse_terms(args);
+    } else if (keyword == "terms") parse_terms(args);
     else if (keyword == "test") {
       const int word = args.choice(keyword, {"always", "contact", "end"});
       test = word == 0 ? ALWAYS : word == 1 ? IN_CONTACT : CONTACT_ENDED;
     } else if (keyword == "hysteresis") {
       hysteresis = args.number(keyword, "a number >= 0");
       if (hysteresis < 0.0) args.refuse(keyword, "a number >= 0");
-    } else if (keyword == "break")
-      breaking = args.yes(keyword);
+    } else if (keyword == "break") breaking = args.yes(keyword);
     else if (keyword == "merge") {
       if (args.next_is("yes") || args.next_is("no")) merging = args.yes(keyword);
       else {
@@ -155,34 +152,36 @@ void FixClusterBreakMerge::parse(StyleArguments &args)
         merge_tolerance = args.number(keyword, "yes, no, or a number > 0");
         if (!(merge_tolerance > 0.0)) args.refuse(keyword, "yes, no, or a number > 0");
       }
-    } else if (keyword == "refused")
-      break_refused = args.choice(keyword, {"leave", "break"}) == 1;
+    } else if (keyword == "refused") break_refused = args.choice(keyword, {"leave", "break"}) == 1;
     else if (keyword == "gravity") {
       gravity = args.positive("gravity g", "acceleration");
       gravity_axis = args.choice("gravity axis", {"x", "y", "z"});
-    } else if (keyword == "claim")
-      claim_max = args.positive(keyword, "length");
-    else if (keyword == "plane")
-      planar = args.choice(keyword, {"xz", "none"}) == 0;
+    } else if (keyword == "claim") claim_max = args.positive(keyword, "length");
+    else if (keyword == "plane") planar = args.choice(keyword, {"xz", "none"}) == 0;
     else if (keyword == "spacing") {
       spacing = args.number(keyword, "a number >= 1");
       if (!(spacing >= 1.0)) args.refuse(keyword, "a number >= 1");
-    } else
-      args.unknown_keyword();
+    } else args.unknown_keyword();
   }
 
   if (claim_max == 0.0) claim_max = 1.6 * geometry.diameter(limits.hi);
   if (!k_given) error->all(FLERR, "Illegal fix {} command: the keyword K is required", style);
   if (term_st && drag_id.empty())
-    error->all(FLERR, "Illegal fix {} command: the term st needs the keyword drag FIX-ID (or leave st out "
-               "of terms)", style);
+    error->all(FLERR,
+               "Illegal fix {} command: the term st needs the keyword drag FIX-ID (or leave st out "
+               "of terms)",
+               style);
   if ((term_mf || k_from_emms) && umf_from_wen_yu && drag_id.empty())
-    error->all(FLERR, "Illegal fix {} command: umf wen/yu needs the gas of the keyword drag FIX-ID (or give "
-               "umf a value)", style);
+    error->all(FLERR,
+               "Illegal fix {} command: umf wen/yu needs the gas of the keyword drag FIX-ID (or give "
+               "umf a value)",
+               style);
   const bool cell_reading = (term_st && nst == NstReading::CELL) || (term_mf && up != UpReading::OWN);
   if (cell_reading && !cells_given)
-    error->all(FLERR, "Illegal fix {} command: the readings nst cell, up cell and up superficial need the "
-               "keyword grid nx ny nz", style);
+    error->all(FLERR,
+               "Illegal fix {} command: the readings nst cell, up cell and up superficial need the "
+               "keyword grid nx ny nz",
+               style);
   if (!cell_reading) cells_given = false;    // no averages that nobody asks for
 }
 
@@ -221,12 +220,14 @@ void FixClusterBreakMerge::init()
 
   check_order();
   find_drag();
-  u_mf = umf_from_wen_yu && drag
-      ? umf_wen_yu(geometry.d_p, geometry.rho_p, drag->gas_properties(), gravity) : umf_value;
+  u_mf = umf_from_wen_yu && drag ? umf_wen_yu(geometry.d_p, geometry.rho_p, drag->gas_properties(), gravity)
+                                 : umf_value;
   const double k = k_from_emms ? k_emms(geometry.d_p, k_value, u_mf, eps_mf, gravity) : k_value;
   if (!(k > 0.0))
-    error->all(FLERR, "{}: K emms {} gives K = {}: U_p must be above {} (so that U_p/(1 - 0.9997) exceeds "
-               "the minimum fluidization)", me, k_value, k, u_mf * 3.0e-4);
+    error->all(FLERR,
+               "{}: K emms {} gives K = {}: U_p must be above {} (so that U_p/(1 - 0.9997) exceeds "
+               "the minimum fluidization)",
+               me, k_value, k, u_mf * 3.0e-4);
   rule = {k, hysteresis, geometry, limits};
 
   pairs.find(me, groupbit, geometry.diameter(limits.hi));
@@ -235,9 +236,11 @@ void FixClusterBreakMerge::init()
   const double finest = spacing * geometry.diameter(limits.lo);
   const double sites = ClusterDEM::Lattice::sites_within(planar, claim_max / finest + 1.0);
   if (sites > MOST_SITES)
-    error->all(FLERR, "{}: the claim {} [length] holds {:.3g} sites of a lattice for fragments of {} particles, more than "
-               "{:.3g}: raise the lower limit or the spacing, or use a smaller claim", me, claim_max, sites, limits.lo,
-               MOST_SITES);
+    error->all(
+        FLERR,
+        "{}: the claim {} [length] holds {:.3g} sites of a lattice for fragments of {} particles, more than "
+        "{:.3g}: raise the lower limit or the spacing, or use a smaller claim",
+        me, claim_max, sites, limits.lo, MOST_SITES);
   const int axis0 = planar ? 0 : -1, axis1 = planar ? 2 : -1;
   lattices = std::make_unique<Lattices>(axis0, axis1, claim_max / finest + 1.0);
 }
@@ -252,8 +255,10 @@ void FixClusterBreakMerge::check_order()
   for (const auto &fix : modify->get_fix_list()) {
     if (fix == this) after_me = true;
     else if (after_me && utils::strmatch(fix->id, "^NEIGH_HISTORY"))
-      error->all(FLERR, "Fix {} {} must be defined after the pair_style command: contact history is saved "
-                 "in the order of definition", style, id);
+      error->all(FLERR,
+                 "Fix {} {} must be defined after the pair_style command: contact history is saved "
+                 "in the order of definition",
+                 style, id);
   }
 }
 
@@ -279,23 +284,30 @@ void FixClusterBreakMerge::check_room()
 {
   const double largest = geometry.diameter(limits.hi);
   if (claim_max < largest)
-    error->all(FLERR, "Fix {} {}: claim {} [length] is below the largest cluster diameter {}: use a larger claim "
-               "or a lower upper limit", style, id, claim_max, largest);
+    error->all(FLERR,
+               "Fix {} {}: claim {} [length] is below the largest cluster diameter {}: use a larger claim "
+               "or a lower upper limit",
+               style, id, claim_max, largest);
   const double halves = 0.5 * (spacing + 1.0) * geometry.diameter(0.5 * limits.hi);
   if (breaking && claim_max < halves)
-    error->all(FLERR, "Fix {} {}: claim {} [length] is below {}, the room that two halves of the largest cluster "
-               "need at spacing {}: the largest could never break", style, id, claim_max, halves, spacing);
+    error->all(FLERR,
+               "Fix {} {}: claim {} [length] is below {}, the room that two halves of the largest cluster "
+               "need at spacing {}: the largest could never break",
+               style, id, claim_max, halves, spacing);
   const double needed = 2.0 * claim_max + neighbor->skin;
   const double have = ghost_reach(force->pair->cutforce + neighbor->skin, comm->cutghostuser, neighbor->skin);
   if (have < needed * (1.0 - 1.0e-12))
     error->all(FLERR,
                "Fix {} {}: the ghost cutoff {} is below {}, twice the claim {} plus the skin: use "
-               "'{}' or a smaller claim", style, id, have, needed, claim_max, ask_for_ghosts(needed * 1.0001, neighbor->skin));
+               "'{}' or a smaller claim",
+               style, id, have, needed, claim_max, ask_for_ghosts(needed * 1.0001, neighbor->skin));
   for (int axis = 0; axis < 3; axis++) {
     if (planar && axis == 1) continue;
     if (domain->periodicity[axis] && domain->prd[axis] < 4.0 * claim_max)
-      error->all(FLERR, "Fix {} {}: the periodic box is {} long along {}, below four times the claim {}: an "
-                 "event would meet its own image", style, id, domain->prd[axis], "xyz"[axis], claim_max);
+      error->all(FLERR,
+                 "Fix {} {}: the periodic box is {} long along {}, below four times the claim {}: an "
+                 "event would meet its own image",
+                 style, id, domain->prd[axis], "xyz"[axis], claim_max);
   }
 }
 
@@ -311,17 +323,20 @@ void FixClusterBreakMerge::setup_pre_exchange()
     if (!(atom->mask[i] & groupbit)) continue;
     count[i] = 0;    // a set command may have changed it
     if (particle_count(i) > limits.hi)
-      error->one(FLERR, "Fix {} {}: cluster {} holds {} primary particles, above the upper limit {}: the pair "
-                 "cutoff is made for the largest diameter of the limits", style, id, atom->tag[i], count[i], limits.hi);
+      error->one(FLERR,
+                 "Fix {} {}: cluster {} holds {} primary particles, above the upper limit {}: the pair "
+                 "cutoff is made for the largest diameter of the limits",
+                 style, id, atom->tag[i], count[i], limits.hi);
   }
   MPI_Allreduce(&mine, &all, 1, MPI_LMP_TAGINT, MPI_MAX, world);
   newborn_tags.raise(all);
 
   for (int axis = 0; axis < 3; axis++)
     if (comm->procgrid[axis] > 1 && domain->subhi[axis] - domain->sublo[axis] < claim_max)
-      error->one(FLERR, "Fix {} {}: a rank's part of the box is {} long along {}, below the claim {}: use "
-                 "fewer ranks or a smaller claim", style, id, domain->subhi[axis] - domain->sublo[axis],
-                 "xyz"[axis], claim_max);
+      error->one(FLERR,
+                 "Fix {} {}: a rank's part of the box is {} long along {}, below the claim {}: use "
+                 "fewer ranks or a smaller claim",
+                 style, id, domain->subhi[axis] - domain->sublo[axis], "xyz"[axis], claim_max);
 }
 
 /* ----------------------------------------------------------------------

@@ -112,22 +112,22 @@ class FixClusterBreakMerge : public EngineFix {
 
   // ---- of one check, owned and ghost clusters
   int nmax_check;
-  int *stable;                                   // n_l; negative once the cluster is to break
-  double *power;                                 // sum of F_ij . dU_ij
+  int *stable;      // n_l; negative once the cluster is to break
+  double *power;    // sum of F_ij . dU_ij
   int *ncontacts;
-  double contact_force;                          // sum over my clusters of |F_ij|
-  struct Suitor {                                // best partner to merge with
-    double slip;                                 // |dV| / min |V|
-    double stiffness;                            // of their contact
-    tagint tag;                                  // 0: none
+  double contact_force;    // sum over my clusters of |F_ij|
+  struct Suitor {          // best partner to merge with
+    double slip;           // |dV| / min |V|
+    double stiffness;      // of their contact
+    tagint tag;            // 0: none
     bool better_than(const Suitor &other) const
     {
       return slip < other.slip || (slip == other.slip && tag < other.tag);
     }
   } *suitor;
-  int *needs;                                    // terms without which the merge would be refused: bits
+  int *needs;    // terms without which the merge would be refused: bits
   enum { NEEDS_ST = 1, NEEDS_MF = 2 };
-  double **room;                                 // claim: radius, centre relative to the cluster
+  double **room;    // claim: radius, centre relative to the cluster
   int *proceeds;
   std::vector<std::vector<tagint>> touching_tags;
   enum { CONTACTS, TAGS, SIZES, SUITORS, PARTNERS, CLAIMS, VERDICTS } comm_stage;
@@ -137,22 +137,39 @@ class FixClusterBreakMerge : public EngineFix {
     int i, j = -1;    // j < 0: no partner
     ClusterDEM::BreakPlan plan;
     ClusterDEM::Placement placement;
-    ClusterDEM::Body body = {};       // parent, or both combined
-    ClusterDEM::Vec3 omega = {};      // of the merged cluster
-    double stiffness = 0.0;           // of the merging contact
-    double energy_lost = 0.0;         // kinetic energy that the merge takes out
-    double energy_born = 0.0;         // elastic energy that the merged cluster puts in
-    double reach = 0.0;               // how far to look for others
-    int needs = 0;                    // of either partner
+    ClusterDEM::Body body = {};     // parent, or both combined
+    ClusterDEM::Vec3 omega = {};    // of the merged cluster
+    double stiffness = 0.0;         // of the merging contact
+    double energy_lost = 0.0;       // kinetic energy that the merge takes out
+    double energy_born = 0.0;       // elastic energy that the merged cluster puts in
+    double reach = 0.0;             // how far to look for others
+    int needs = 0;                  // of either partner
   };
   std::vector<Event> events;
   std::vector<int> dying;    // owned partners of proceeding merges
 
   // ---- totals since the fix was defined, on this rank
   enum {
-    BREAKUPS, MERGES, BORN, DEFERRED, E_LOST, E_BORN,
-    TESTS, SHARE_ST, SHARE_CC, SHARE_MF, BREAKUPS_BY_ST, BREAKUPS_BY_CC, WHOLE_BY_ST, WHOLE_BY_MF, MERGES_BY_ST,
-    MERGES_BY_MF, DRAG_FORCE, CONTACT_FORCE, WEIGHT, NTOTALS
+    BREAKUPS,
+    MERGES,
+    BORN,
+    DEFERRED,
+    E_LOST,
+    E_BORN,
+    TESTS,
+    SHARE_ST,
+    SHARE_CC,
+    SHARE_MF,
+    BREAKUPS_BY_ST,
+    BREAKUPS_BY_CC,
+    WHOLE_BY_ST,
+    WHOLE_BY_MF,
+    MERGES_BY_ST,
+    MERGES_BY_MF,
+    DRAG_FORCE,
+    CONTACT_FORCE,
+    WEIGHT,
+    NTOTALS
   };
   double totals[NTOTALS];
   NewbornTags newborn_tags;

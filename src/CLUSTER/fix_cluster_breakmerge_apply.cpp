@@ -56,8 +56,7 @@ void FixClusterBreakMerge::pre_exchange()
       totals[BORN] += pieces;
       if (e.j < 0) note_breakup(e.i);
       create_fragments(e, births[birth++].first);
-    } else
-      become(e.i, e.plan.n, e.body.x, e.body.v);
+    } else become(e.i, e.plan.n, e.body.x, e.body.v);
   }
   delete_dying();
   events.clear();
@@ -66,8 +65,7 @@ void FixClusterBreakMerge::pre_exchange()
   bigint made = atom->nlocal - nlocal_before, made_all = 0;
   MPI_Allreduce(&made, &made_all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   atom->natoms += made_all;
-  if (atom->natoms < 0 || atom->natoms >= MAXBIGINT)
-    error->all(FLERR, "Fix {} {}: too many clusters", style, id);
+  if (atom->natoms < 0 || atom->natoms >= MAXBIGINT) error->all(FLERR, "Fix {} {}: too many clusters", style, id);
   atom->map_init();
   atom->map_set();
 }
@@ -88,8 +86,7 @@ void FixClusterBreakMerge::become(int i, int n, const Vec3 &x, const Vec3 &v)
   array_atom[i][0] = n;
   array_atom[i][1] = geometry.diameter(n);
   if (test == CONTACT_ENDED) partners[i].clear();
-  for (auto &fix : modify->get_fix_by_style("^drag/cluster"))
-    static_cast<FixDragCluster *>(fix)->redraw(i);
+  for (auto &fix : modify->get_fix_by_style("^drag/cluster")) static_cast<FixDragCluster *>(fix)->redraw(i);
 }
 
 /* ----------------------------------------------------------------------

@@ -35,13 +35,13 @@ int FixClusterBreakMerge::particle_count(int i)
   if (!n.whole || !right_size) {
     const int nearest = MAX(1, static_cast<int>(std::lround(n.exact)));
     const std::string fault = n.whole
-        ? fmt::format("has diameter {:.10g}, which does not fit its {} primary particles", 2.0 * atom->radius[i], n.n)
+        ? fmt::format("has diameter {:.10g}, which does not fit its {} primary particles", 2.0 * atom->radius[i],
+                      n.n)
         : fmt::format("has mass {:.10g}, which is {:.2f} primary particles, not a whole number within 1e-6",
                       atom->rmass[i], n.exact);
-    error->one(FLERR,
-               "Fix {} {}: cluster {} {}: {} particles at voidage {} need diameter {:.10g} and density {:.10g}",
-               style, id, atom->tag[i], fault, nearest, geometry.voidage, geometry.diameter(nearest),
-               geometry.density());
+    error->one(
+        FLERR, "Fix {} {}: cluster {} {}: {} particles at voidage {} need diameter {:.10g} and density {:.10g}",
+        style, id, atom->tag[i], fault, nearest, geometry.voidage, geometry.diameter(nearest), geometry.density());
   }
   count[i] = n.n;
   array_atom[i][0] = n.n;
@@ -85,8 +85,10 @@ void FixClusterBreakMerge::check_finite()
   for (int i = 0; i < atom->nlocal; i++) {
     const Vec3 state = to_vec3(atom->x[i]) + to_vec3(atom->v[i]);
     if (!std::isfinite(state[0] + state[1] + state[2]))
-      error->one(FLERR, "Fix {} {}: position and velocity of cluster {} are not finite at step {}: clusters at one "
-                 "point, or a time step that is too long", style, id, atom->tag[i], update->ntimestep);
+      error->one(FLERR,
+                 "Fix {} {}: position and velocity of cluster {} are not finite at step {}: clusters at one "
+                 "point, or a time step that is too long",
+                 style, id, atom->tag[i], update->ntimestep);
   }
 }
 
@@ -199,9 +201,8 @@ void FixClusterBreakMerge::find_stable_sizes()
       const Vec3 slip = drag->in_plane(u - v);
       const double speed = norm(slip);
       const bool single = nst == NstReading::PARTICLE;
-      const double b = single
-          ? drag_coefficient(drag->drag_law(), drag->gas_properties(), geometry.d_p, speed)
-          : drag->cluster_coefficient(i, speed);
+      const double b = single ? drag_coefficient(drag->drag_law(), drag->gas_properties(), geometry.d_p, speed)
+                              : drag->cluster_coefficient(i, speed);
       gas = n_st(b * slip, u, single ? particle_mass : atom->rmass[i]);
     }
     if (looks_at_power()) contacts = n_cc(power[i], atom->rmass[i], ncc_factor);

@@ -37,13 +37,11 @@ int FixClusterBreakMerge::pack_forward_comm(int n, int *list, double *buf, int, 
     if (comm_stage == SIZES) {
       buf[m++] = ubuf(count[i]).d;
       buf[m++] = ubuf(stable[i]).d;
-    } else if (comm_stage == PARTNERS)
-      buf[m++] = ubuf(suitor[i].tag).d;
+    } else if (comm_stage == PARTNERS) buf[m++] = ubuf(suitor[i].tag).d;
     else if (comm_stage == CLAIMS) {
       for (int c = 0; c < 4; c++) buf[m++] = room[i][c];
       buf[m++] = ubuf(needs[i]).d;
-    } else
-      buf[m++] = ubuf(proceeds[i]).d;
+    } else buf[m++] = ubuf(proceeds[i]).d;
   }
   return m;
 }
@@ -55,13 +53,11 @@ void FixClusterBreakMerge::unpack_forward_comm(int n, int first, double *buf)
     if (comm_stage == SIZES) {
       count[i] = (int) ubuf(buf[m++]).i;
       stable[i] = (int) ubuf(buf[m++]).i;
-    } else if (comm_stage == PARTNERS)
-      suitor[i].tag = (tagint) ubuf(buf[m++]).i;
+    } else if (comm_stage == PARTNERS) suitor[i].tag = (tagint) ubuf(buf[m++]).i;
     else if (comm_stage == CLAIMS) {
       for (int c = 0; c < 4; c++) room[i][c] = buf[m++];
       needs[i] = (int) ubuf(buf[m++]).i;
-    } else
-      proceeds[i] = (int) ubuf(buf[m++]).i;
+    } else proceeds[i] = (int) ubuf(buf[m++]).i;
   }
 }
 

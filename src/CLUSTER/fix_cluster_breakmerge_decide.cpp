@@ -136,7 +136,8 @@ void FixClusterBreakMerge::make_room()
   const double largest = 0.5 * geometry.diameter(limits.hi);
 
   for (Event &e : events)
-    e.reach = e.plan.is_event() ? reach_of_break(e.plan, geometry, spacing, claim_max) : 0.5 * geometry.diameter(e.plan.n);
+    e.reach = e.plan.is_event() ? reach_of_break(e.plan, geometry, spacing, claim_max)
+                                : 0.5 * geometry.diameter(e.plan.n);
 
   Vec3 lo, hi;
   for (int axis = 0; axis < 3; axis++) {
@@ -177,8 +178,8 @@ void FixClusterBreakMerge::place(Event &e, const std::vector<Obstacle> &obstacle
     const Turn turn(atom->tag[e.i], 0, planar ? 2 : 1, update->ntimestep / nevery);
     const int n = count[e.i] + (e.j < 0 ? 0 : count[e.j]);
     const int wanted = e.plan.pieces();
-    e.placement = place_in_stages(e.plan, n, e.plan.n, limits.lo, geometry, *lattices, turn, spacing,
-                                  e.reach, obstacles, walls);
+    e.placement = place_in_stages(e.plan, n, e.plan.n, limits.lo, geometry, *lattices, turn, spacing, e.reach,
+                                  obstacles, walls);
     e.placement.shifted = e.placement.shifted || e.plan.pieces() < wanted;
     return;
   }
@@ -220,8 +221,7 @@ void FixClusterBreakMerge::arbitrate()
 
   std::vector<Claim> claims;
   for (int i = 0; i < nall; i++)
-    if (room[i][0] > 0.0)
-      claims.push_back({to_vec3(atom->x[i]) + to_vec3(&room[i][1]), room[i][0], atom->tag[i]});
+    if (room[i][0] > 0.0) claims.push_back({to_vec3(atom->x[i]) + to_vec3(&room[i][1]), room[i][0], atom->tag[i]});
 
   Vec3 lo, hi;
   for (int axis = 0; axis < 3; axis++) {
@@ -245,8 +245,7 @@ void FixClusterBreakMerge::arbitrate()
       proceeds[e.i] = 1;
       if (e.j >= 0) e.needs = needs[e.i] | needs[e.j];
       proceeding.push_back(std::move(e));
-    } else
-      totals[DEFERRED]++;
+    } else totals[DEFERRED]++;
   }
   events.swap(proceeding);
 }

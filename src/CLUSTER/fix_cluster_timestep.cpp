@@ -29,12 +29,13 @@ static constexpr double ROUNDING = 1.0e-12;
 /* ---------------------------------------------------------------------- */
 
 FixClusterTimestep::FixClusterTimestep(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), contact_factor(CONTACT_PI / 5.0), stiffness(0.0), stiffness_given(false), overlap_limit(1.0),
-    energy_test(true), tolerance(1.0e-6), kinetic(false), predict(true), floor_given(0.0), pairs(lmp), pair(nullptr),
-    breakmerge(nullptr), motion{}, range(0.0), fastest(0.0), gain(0.0), acceleration_at_look(0.0), looks_ago(0),
-    look_due(true), overlap_bound(INFINITY), test_due(false), repeating(false), moved(0.0), kinetic_mine(0.0),
-    energy_all(0.0), most_energy(0.0), restless_all{INFINITY, 0.0}, recent_error(0.0), saved(-1), saved_forces(false),
-    elastic_before(0.0), count{}, worst_overlap(-INFINITY), last_error(0.0), worst_error(0.0)
+    Fix(lmp, narg, arg), contact_factor(CONTACT_PI / 5.0), stiffness(0.0), stiffness_given(false),
+    overlap_limit(1.0), energy_test(true), tolerance(1.0e-6), kinetic(false), predict(true), floor_given(0.0),
+    pairs(lmp), pair(nullptr), breakmerge(nullptr), motion{}, range(0.0), fastest(0.0), gain(0.0),
+    acceleration_at_look(0.0), looks_ago(0), look_due(true), overlap_bound(INFINITY), test_due(false),
+    repeating(false), moved(0.0), kinetic_mine(0.0), energy_all(0.0), most_energy(0.0),
+    restless_all{INFINITY, 0.0}, recent_error(0.0), saved(-1), saved_forces(false), elastic_before(0.0), count{},
+    worst_overlap(-INFINITY), last_error(0.0), worst_error(0.0)
 {
   time_depend = 1;
   restart_global = 1;
@@ -45,7 +46,8 @@ FixClusterTimestep::FixClusterTimestep(LAMMPS *lmp, int narg, char **arg) :
 
   if (!atom->radius_flag || !atom->rmass_flag)
     error->all(FLERR, "Fix {} requires atom style sphere or cluster: clusters have a diameter and a mass", style);
-  if (igroup) error->all(FLERR, 1, "Illegal fix {} group: {} (must be all: all clusters take the same step)", style, arg[1]);
+  if (igroup)
+    error->all(FLERR, 1, "Illegal fix {} group: {} (must be all: all clusters take the same step)", style, arg[1]);
 
   StyleArguments args(lmp, narg, arg, 3);
   step.most = args.positive("DT_MAX", "time");
@@ -58,23 +60,18 @@ FixClusterTimestep::FixClusterTimestep(LAMMPS *lmp, int narg, char **arg) :
     } else if (keyword == "stiffness") {
       stiffness = args.positive(keyword, "force/length");
       stiffness_given = true;
-    } else if (keyword == "overlap")
-      overlap_limit = args.within(keyword, 1.0e-6, 1.0e6);
+    } else if (keyword == "overlap") overlap_limit = args.within(keyword, 1.0e-6, 1.0e6);
     else if (keyword == "energy") {
       energy_test = !args.next_is("off");
       if (energy_test) tolerance = args.positive(keyword, "off, or a share of the energy");
       else args.word(keyword);
-    } else if (keyword == "test")
-      kinetic = args.choice(keyword, {"balance", "kinetic"}) == 1;
+    } else if (keyword == "test") kinetic = args.choice(keyword, {"balance", "kinetic"}) == 1;
     else if (keyword == "floor") {
       floor_given = args.positive(keyword, "time");
       if (floor_given > step.most) args.refuse(keyword, fmt::format("at most DT_MAX = {}", step.most));
-    } else if (keyword == "retries")
-      step.retries = args.integer(keyword, 1);
-    else if (keyword == "predict")
-      predict = args.yes(keyword);
-    else
-      args.unknown_keyword();
+    } else if (keyword == "retries") step.retries = args.integer(keyword, 1);
+    else if (keyword == "predict") predict = args.yes(keyword);
+    else args.unknown_keyword();
   }
   step.start(step.most);
 }
@@ -111,8 +108,10 @@ void FixClusterTimestep::check_order() const
   const auto &fixes = modify->get_fix_list();
   for (std::size_t k = 0; k < fixes.size() && fixes[k] != this; k++)
     if (modify->fmask[k] & (INITIAL_INTEGRATE | POST_INTEGRATE | POST_FORCE))
-      error->all(FLERR, "Fix {} {} must be defined before fix {} ({}), which moves clusters or adds forces: it must keep "
-                 "the state of each step first", style, id, fixes[k]->id, fixes[k]->style);
+      error->all(FLERR,
+                 "Fix {} {} must be defined before fix {} ({}), which moves clusters or adds forces: it must keep "
+                 "the state of each step first",
+                 style, id, fixes[k]->id, fixes[k]->style);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -124,11 +123,15 @@ void FixClusterTimestep::find_pair()
   pair = dynamic_cast<PairGranCluster *>(force->pair_match("gran/cluster", 1));
   if (pair && !stiffness_given) stiffness = pair->contact_law().k_n;
   if (!pair && energy_test)
-    error->all(FLERR, "{}: the energy test needs pair style gran/cluster, which knows the energy stored in its springs; "
-               "pair style {} does not: use 'energy off'", me, force->pair_style);
+    error->all(FLERR,
+               "{}: the energy test needs pair style gran/cluster, which knows the energy stored in its springs; "
+               "pair style {} does not: use 'energy off'",
+               me, force->pair_style);
   if (contact_factor > 0.0 && !(stiffness > 0.0))
-    error->all(FLERR, "{}: the contact bound needs the stiffness k_n of pair style {}: add 'stiffness K_N' "
-               "[force/length], or 'contact off'", me, force->pair_style);
+    error->all(FLERR,
+               "{}: the contact bound needs the stiffness k_n of pair style {}: add 'stiffness K_N' "
+               "[force/length], or 'contact off'",
+               me, force->pair_style);
   if (pair) pair->keep_undo(energy_test);
 }
 
@@ -267,8 +270,7 @@ void FixClusterTimestep::end_of_step()
     count[LET_PASS]++;
     step.taken(update->dt);
     step.halve();
-  } else
-    step.accept(relative / tolerance);
+  } else step.accept(relative / tolerance);
   energy_all = all[1];
   restless_all = {all[2], all[3]};
   last_error = relative;
@@ -285,9 +287,8 @@ static constexpr int NSAVED = 4 + 4;
 void FixClusterTimestep::write_restart(FILE *fp)
 {
   if (comm->me) return;
-  const double list[NSAVED] = {step.now(), worst_overlap, last_error, worst_error,
-                               (double) count[0], (double) count[1], (double) count[2],
-                               (double) count[3]};
+  const double list[NSAVED] = {step.now(),        worst_overlap,     last_error,        worst_error,
+                               (double) count[0], (double) count[1], (double) count[2], (double) count[3]};
   const int size = sizeof(list);
   fwrite(&size, sizeof(int), 1, fp);
   fwrite(list, sizeof(double), NSAVED, fp);
@@ -319,13 +320,22 @@ double FixClusterTimestep::compute_scalar()
 double FixClusterTimestep::compute_vector(int n)
 {
   switch (n) {
-    case 0: return update->dt;
-    case 1: case 2: case 3: return static_cast<double>(count[n - 1]);
-    case 4: return std::max(0.0, pairs.survey(overlap_limit, 0.0).deepest);
-    case 5: return std::max(0.0, worst_overlap);
-    case 6: return last_error;
-    case 7: return worst_error;
-    default: return static_cast<double>(count[LET_PASS]);
+    case 0:
+      return update->dt;
+    case 1:
+    case 2:
+    case 3:
+      return static_cast<double>(count[n - 1]);
+    case 4:
+      return std::max(0.0, pairs.survey(overlap_limit, 0.0).deepest);
+    case 5:
+      return std::max(0.0, worst_overlap);
+    case 6:
+      return last_error;
+    case 7:
+      return worst_error;
+    default:
+      return static_cast<double>(count[LET_PASS]);
   }
 }
 

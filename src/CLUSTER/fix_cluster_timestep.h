@@ -38,47 +38,47 @@ class FixClusterTimestep : public Fix {
 
  private:
   // ---- settings
-  double contact_factor;     // C, 0: no such bound
-  double stiffness;          // k_n; of pair gran/cluster unless given
+  double contact_factor;    // C, 0: no such bound
+  double stiffness;         // k_n; of pair gran/cluster unless given
   bool stiffness_given;
-  double overlap_limit;      // F: an overlap stays below F d_i
+  double overlap_limit;    // F: an overlap stays below F d_i
   bool energy_test;
   double tolerance;
-  bool kinetic;              // the printed test: kinetic energy must not rise
+  bool kinetic;    // the printed test: kinetic energy must not rise
   bool predict;
-  double floor_given;        // smallest step, 0: as the retries have it
+  double floor_given;    // smallest step, 0: as the retries have it
   ClusterDEM::StepSize step;
 
   // ---- what init() finds
   GranularPairs pairs;
-  PairGranCluster *pair;     // null: a stock pair style
+  PairGranCluster *pair;    // null: a stock pair style
   FixClusterBreakMerge *breakmerge;
 
   // ---- of the step being taken
-  struct Motion {            // of all clusters on all ranks, at the start of the step
-    double closing;          // no two approach each other faster, whatever the step
-    double speed;            // none is faster
-    double acceleration;     // none is larger
+  struct Motion {                 // of all clusters on all ranks, at the start of the step
+    double closing;               // no two approach each other faster, whatever the step
+    double speed;                 // none is faster
+    double acceleration;          // none is larger
     double lightest, heaviest;    // mass
-    double smallest;         // diameter
+    double smallest;              // diameter
   } motion;
-  double range, fastest;     // of velocities, when last looked at; how much that may have grown since:
+  double range, fastest;    // of velocities, when last looked at; how much that may have grown since:
   double gain, acceleration_at_look;
   int looks_ago;
-  bool look_due;             // clusters changed, or moved by other than forces
-  double overlap_bound;      // no overlap is larger than this times d_i
-  bool test_due;             // overlaps are looked at after the drift
-  bool repeating;            // the drift of the other fixes is done again
-  double moved;              // bound on the way of any cluster since the lists were built
-  double kinetic_mine;       // energy of my clusters, when last looked at
-  double energy_all;         // at the end of the last step tested
-  double most_energy;        // in this run
+  bool look_due;           // clusters changed, or moved by other than forces
+  double overlap_bound;    // no overlap is larger than this times d_i
+  bool test_due;           // overlaps are looked at after the drift
+  bool repeating;          // the drift of the other fixes is done again
+  double moved;            // bound on the way of any cluster since the lists were built
+  double kinetic_mine;     // energy of my clusters, when last looked at
+  double energy_all;       // at the end of the last step tested
+  double most_energy;      // in this run
   ClusterDEM::Restlessness restless_all;
-  double recent_error;       // largest of the last steps, as a share of what would be too much
+  double recent_error;    // largest of the last steps, as a share of what would be too much
 
   // ---- state at the start of the step, of my clusters
   std::vector<double> x_before, v_before, f_before, omega_before, torque_before;
-  int saved;                 // clusters, -1: not saved
+  int saved;    // clusters, -1: not saved
   bool saved_forces;
 
   // clusters that contacts push, in the order of their indices: at the start of the step and at its end. v and omega
@@ -93,7 +93,7 @@ class FixClusterTimestep : public Fix {
   // ---- totals since the fix was defined, the same on all ranks
   enum { BY_OVERLAP, BY_ENERGY, UNTESTED, LET_PASS, NCOUNTS };
   bigint count[NCOUNTS];
-  double worst_overlap;      // largest that was looked at and accepted
+  double worst_overlap;    // largest that was looked at and accepted
   double last_error, worst_error;
 
   void check_order() const;

@@ -153,8 +153,8 @@ void FixClusterTimestep::stop_not_finite()
 bool FixClusterTimestep::may_be_rejected() const
 {
   if (kinetic || recent_error > 0.01) return true;
-  return !(possible_creation(update->dt, restless_all, stiffness, motion.lightest, motion.heaviest, motion.closing) <
-           tolerance * energy_all);
+  return !(possible_creation(update->dt, restless_all, stiffness, motion.lightest, motion.heaviest,
+                             motion.closing) < tolerance * energy_all);
 }
 
 /* ----------------------------------------------------------------------

@@ -48,8 +48,8 @@ void FixClusterTimestep::stop(const std::string &message, bool drifted)
   bigint all = 0;
   MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (all != atom->natoms)
-    error->all(FLERR, "Fix {} {}: {} The state is not written: {} of {} clusters were lost before.", style, id, message,
-               atom->natoms - all, atom->natoms);
+    error->all(FLERR, "Fix {} {}: {} The state is not written: {} of {} clusters were lost before.", style, id,
+               message, atom->natoms - all, atom->natoms);
   const std::string file = fmt::format("{}.{}.restart", id, good);
   domain->pbc();
   WriteRestart writer(lmp);
@@ -61,30 +61,40 @@ void FixClusterTimestep::stop(const std::string &message, bool drifted)
 void FixClusterTimestep::stop_too_soft(const GranularPairs::Meeting &m, bool drifted)
 {
   if (m.smaller == 0.0)
-    stop(fmt::format("clusters approach each other at up to {:.4g} and could pass unseen at the smallest step {:.4g}: allow "
-                     "a smaller floor or more retries, or 'predict yes'.", motion.closing, update->dt), drifted);
+    stop(fmt::format("clusters approach each other at up to {:.4g} and could pass unseen at the smallest step "
+                     "{:.4g}: allow "
+                     "a smaller floor or more retries, or 'predict yes'.",
+                     motion.closing, update->dt),
+         drifted);
   const double most = overlap_limit * m.smaller;
-  const std::string who = fmt::format("clusters {:.0f} and {:.0f} overlap by {:.4g}, {:.3g} of the smaller diameter {:.4g}, "
-                                      "and approach at {:.4g}", m.tags[0], m.tags[1], m.overlap, m.overlap / m.smaller,
-                                      m.smaller, m.closing);
+  const std::string who =
+      fmt::format("clusters {:.0f} and {:.0f} overlap by {:.4g}, {:.3g} of the smaller diameter {:.4g}, "
+                  "and approach at {:.4g}",
+                  m.tags[0], m.tags[1], m.overlap, m.overlap / m.smaller, m.smaller, m.closing);
   if (!too_soft(m))
-    stop(fmt::format("{}, beyond the limit {} at the smallest step {:.4g}: allow a smaller floor or more retries.", who,
-                     overlap_limit, update->dt), drifted);
+    stop(fmt::format("{}, beyond the limit {} at the smallest step {:.4g}: allow a smaller floor or more retries.",
+                     who, overlap_limit, update->dt),
+         drifted);
   double enough = stopping_stiffness(m.mass, m.closing, most);
   if (pair) {
     const auto &law = pair->contact_law();
     enough = law.stiffness_for(law.peak_overlap(m.mass, std::max(0.0, m.overlap), m.closing), most);
   }
-  stop(fmt::format("the contact spring is too soft, no smaller step helps: {}; k_n of at least {:.4g} would keep them "
-                   "apart.", who, 1.05 * enough), drifted);
+  stop(fmt::format(
+           "the contact spring is too soft, no smaller step helps: {}; k_n of at least {:.4g} would keep them "
+           "apart.",
+           who, 1.05 * enough),
+       drifted);
 }
 
 void FixClusterTimestep::stop_energy(double error_now)
 {
-  const std::string what = kinetic
-      ? "the kinetic energy rises (which gravity, gas and springs set free do as well: 'test balance' tells them apart)"
-      : "contacts create energy";
-  stop(fmt::format("{}: {:.3g} of it in one step, above {:.3g}, at the smallest step {:.4g} after {} rejections in a row. "
-                   "Use a larger energy tolerance, a smaller floor or more retries.", what, error_now, tolerance,
-                   update->dt, step.rejections_in_a_row()), false);
+  const std::string what = kinetic ? "the kinetic energy rises (which gravity, gas and springs set free do as "
+                                     "well: 'test balance' tells them apart)"
+                                   : "contacts create energy";
+  stop(fmt::format(
+           "{}: {:.3g} of it in one step, above {:.3g}, at the smallest step {:.4g} after {} rejections in a row. "
+           "Use a larger energy tolerance, a smaller floor or more retries.",
+           what, error_now, tolerance, update->dt, step.rejections_in_a_row()),
+       false);
 }

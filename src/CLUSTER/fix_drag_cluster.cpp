@@ -34,12 +34,11 @@ static constexpr int BLOCK = 64;     // clusters whose drag is computed together
 
 FixDragCluster::FixDragCluster(LAMMPS *lmp, int narg, char **arg) :
     EngineFix(lmp, narg, arg), law(std::make_unique<TranCongDrag>(0.8, 1.1)), velocity_atom(nullptr),
-    nmax_velocity(0), profile_axis(-1), fluctuation(NO_FLUCTUATION), amplitude{0.0, 0.0, 0.0},
-    cells{1, 1, 1}, period(0.0), seed(0), period_now(0),
-    inverse_length{0.0, 0.0, 0.0}, draw(nullptr),
-    acts_along{true, true, true}, unshielded(0.0), particle_d(0.0), particle_mass(0.0),
-    particle_given(false), exponential(false), refresh(1), held_dt(0.0), handed_over(false), peratom_rows(0),
-    shortest_tau(INFINITY), totals{}, totals_all{}, totals_current(false)
+    nmax_velocity(0), profile_axis(-1), fluctuation(NO_FLUCTUATION), amplitude{0.0, 0.0, 0.0}, cells{1, 1, 1},
+    period(0.0), seed(0), period_now(0), inverse_length{0.0, 0.0, 0.0}, draw(nullptr),
+    acts_along{true, true, true}, unshielded(0.0), particle_d(0.0), particle_mass(0.0), particle_given(false),
+    exponential(false), refresh(1), held_dt(0.0), handed_over(false), peratom_rows(0), shortest_tau(INFINITY),
+    totals{}, totals_all{}, totals_current(false)
 {
   dynamic_group_allow = 1;
   vector_flag = 1;
@@ -72,14 +71,10 @@ FixDragCluster::FixDragCluster(LAMMPS *lmp, int narg, char **arg) :
       const double rho_p = args.positive("particle rho_p", "mass/volume");
       particle_mass = ClusterGeometry{particle_d, rho_p}.particle_mass();
       particle_given = true;
-    } else if (keyword == "integrator")
-      exponential = args.choice(keyword, {"explicit", "exponential"}) == 1;
-    else if (keyword == "table")
-      table = args.yes(keyword);
-    else if (keyword == "refresh")
-      refresh = args.integer("refresh", 1);
-    else
-      args.unknown_keyword();
+    } else if (keyword == "integrator") exponential = args.choice(keyword, {"explicit", "exponential"}) == 1;
+    else if (keyword == "table") table = args.yes(keyword);
+    else if (keyword == "refresh") refresh = args.integer("refresh", 1);
+    else args.unknown_keyword();
   }
 
   if (table) law = std::make_unique<DragTable>(std::move(law));
@@ -137,8 +132,8 @@ void FixDragCluster::init()
       error->all(FLERR, "Variable {} for fix {} {} does not exist", component.variable, style, id);
     component.per_atom = input->variable->atomstyle(component.index);
     if (!component.per_atom && !input->variable->equalstyle(component.index))
-      error->all(FLERR, "Variable {} for fix {} {} must be equal-style or atom-style",
-                 component.variable, style, id);
+      error->all(FLERR, "Variable {} for fix {} {} must be equal-style or atom-style", component.variable, style,
+                 id);
   }
   if (unshielded > 0.0) find_primary_particle();
 }
@@ -154,7 +149,8 @@ void FixDragCluster::find_primary_particle()
   if (fixes.empty())
     error->all(FLERR,
                "Fix {} {}: unshielded {} needs the primary particle: define a fix cluster/breakmerge "
-               "or give the keyword particle d_p rho_p", style, id, unshielded);
+               "or give the keyword particle d_p rho_p",
+               style, id, unshielded);
   const auto &geometry = dynamic_cast<FixClusterBreakMerge *>(fixes[0])->cluster_geometry();
   particle_d = geometry.d_p;
   particle_mass = geometry.particle_mass();
@@ -194,8 +190,8 @@ void FixDragCluster::prepare()
     } else {
       component.value = input->variable->compute_equal(component.index);
       if (!std::isfinite(component.value))
-        error->all(FLERR, "Fix {} {}: variable {} gave {} at step {}: the gas velocity must be finite",
-                   style, id, component.variable, component.value, update->ntimestep);
+        error->all(FLERR, "Fix {} {}: variable {} gave {} at step {}: the gas velocity must be finite", style, id,
+                   component.variable, component.value, update->ntimestep);
     }
   }
   modify->addstep_compute(update->ntimestep + 1);
@@ -261,14 +257,12 @@ Vec3 FixDragCluster::fluctuation_of(int i)
 double FixDragCluster::cluster_coefficient(int i, double slip_speed) const
 {
   const double n = unshielded > 0.0 ? atom->rmass[i] / particle_mass : 0.0;
-  return cluster_drag_coefficient(*law, gas, 2.0 * atom->radius[i], particle_d, n, unshielded,
-                                  slip_speed);
+  return cluster_drag_coefficient(*law, gas, 2.0 * atom->radius[i], particle_d, n, unshielded, slip_speed);
 }
 
 Vec3 FixDragCluster::in_plane(const Vec3 &force) const
 {
-  return {acts_along[0] ? force[0] : 0.0, acts_along[1] ? force[1] : 0.0,
-          acts_along[2] ? force[2] : 0.0};
+  return {acts_along[0] ? force[0] : 0.0, acts_along[1] ? force[1] : 0.0, acts_along[2] ? force[2] : 0.0};
 }
 
 /* ---------------------------------------------------------------------- */
@@ -283,10 +277,13 @@ void FixDragCluster::post_force(int)
   totals_current = false;
   const bool finite = due() ? add_drag_anew() : add_held_drag();
   if (!finite)
-    error->one(FLERR, "Fix {} {}: the drag force is not finite at step {}: check the gas velocity and "
-               "the time step", style, id, update->ntimestep);
+    error->one(FLERR,
+               "Fix {} {}: the drag force is not finite at step {}: check the gas velocity and "
+               "the time step",
+               style, id, update->ntimestep);
   if (!exponential && update->dt > 2.0 * shortest_tau)
-    error->one(FLERR, "Fix {} {}: the time step {} is above twice the relaxation time {} of a cluster at step {}, "
+    error->one(FLERR,
+               "Fix {} {}: the time step {} is above twice the relaxation time {} of a cluster at step {}, "
                "where explicit drag grows without bounds: use a shorter time step or 'integrator exponential'",
                style, id, update->dt, shortest_tau, update->ntimestep);
 }
@@ -309,7 +306,8 @@ bool FixDragCluster::add_drag_anew()
   held_dt = update->dt;
   shortest_tau = INFINITY;
   bool finite = true;
-  for (int first = 0; first < nlocal; first += BLOCK) finite = add_drag(first, MIN(first + BLOCK, nlocal)) && finite;
+  for (int first = 0; first < nlocal; first += BLOCK)
+    finite = add_drag(first, MIN(first + BLOCK, nlocal)) && finite;
   return finite;
 }
 
@@ -512,6 +510,6 @@ double FixDragCluster::compute_vector(int n)
 double FixDragCluster::memory_usage()
 {
   return (double) peratom_rows * COLUMNS * sizeof(double) + (double) cache.size() * sizeof(CachedFluctuation) +
-      (double) (held_u.size() + held_b.size()) * sizeof(double) +
-      (double) nmax_velocity * 3 * sizeof(double) + (draw ? (double) atom->nmax * sizeof(int) : 0.0);
+      (double) (held_u.size() + held_b.size()) * sizeof(double) + (double) nmax_velocity * 3 * sizeof(double) +
+      (draw ? (double) atom->nmax * sizeof(int) : 0.0);
 }

@@ -105,10 +105,10 @@ class FixDragCluster : public EngineFix {
   // gas velocity and coefficient are held for so many steps
   int refresh;
   std::vector<double> held_u, held_b;
-  double held_dt;                      // step that the coefficients are made for
-  bool handed_over;                    // the drag of this step is somebody else's
-  int peratom_rows;                    // rows that array_atom has room for
-  double shortest_tau;                 // relaxation time on this rank, this step
+  double held_dt;                     // step that the coefficients are made for
+  bool handed_over;                   // the drag of this step is somebody else's
+  int peratom_rows;                   // rows that array_atom has room for
+  double shortest_tau;                // relaxation time on this rank, this step
   double totals[4], totals_all[4];    // force and power on my clusters, on all
   bool totals_current;
 

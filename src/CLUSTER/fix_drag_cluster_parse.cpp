@@ -41,7 +41,8 @@ void FixDragCluster::parse_fluctuation(StyleArguments &args)
   if (fluctuation == PER_CELL) {
     double all = 1.0;
     for (int &n : cells) all *= n = args.integer("fluctuation cell count", 1);
-    if (all > MOST_CELLS) args.refuse("fluctuation cell count", fmt::format("at most {:.1g} cells in all", MOST_CELLS));
+    if (all > MOST_CELLS)
+      args.refuse("fluctuation cell count", fmt::format("at most {:.1g} cells in all", MOST_CELLS));
   }
   if (args.next_is("frozen")) {
     args.word("PERIOD");
@@ -102,16 +103,14 @@ void FixDragCluster::parse_profile(StyleArguments &args)
       while (char *text = reader.next_line()) {
         line++;
         ValueTokenizer values(text);
-        if (values.count() != 4)
-          throw TokenizerException("a row needs 4 numbers: position ux uy uz", text);
+        if (values.count() != 4) throw TokenizerException("a row needs 4 numbers: position ux uy uz", text);
         for (int k = 0; k < 4; k++) {
           const double x = values.next_double();
           if (!std::isfinite(x)) throw TokenizerException("a value is not finite", text);
           rows.push_back(x);
         }
         const std::size_t n = rows.size();
-        if (n >= 8 && !(rows[n - 4] > rows[n - 8]))
-          throw TokenizerException("positions must ascend", text);
+        if (n >= 8 && !(rows[n - 4] > rows[n - 8])) throw TokenizerException("positions must ascend", text);
       }
     } catch (std::exception &e) {
       error->one(FLERR, caret, "Fix {}: cannot use gas profile {}, data row {}: {}", style, file, line, e.what());

@@ -39,10 +39,8 @@ FixNVECluster::FixNVECluster(LAMMPS *lmp, int narg, char **arg) :
       if (!(length > 0.0)) args.refuse("gravity direction", "one of three numbers that are not all 0");
       g = (magnitude / length) * direction;
       falling = magnitude != 0.0;
-    } else if (keyword == "drag")
-      drag_id = args.word("drag fix-ID");
-    else
-      args.unknown_keyword();
+    } else if (keyword == "drag") drag_id = args.word("drag fix-ID");
+    else args.unknown_keyword();
   }
 }
 

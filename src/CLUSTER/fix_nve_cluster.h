@@ -31,9 +31,9 @@ class FixNVECluster : public FixNVE {
   void reset_dt() override;
 
  private:
-  ClusterDEM::Vec3 g;         // acceleration by gravity
-  bool falling;               // gravity is not 0
-  std::string drag_id;        // empty: no drag
+  ClusterDEM::Vec3 g;     // acceleration by gravity
+  bool falling;           // gravity is not 0
+  std::string drag_id;    // empty: no drag
   FixDragCluster *drag;
 
   // The end of a step that nobody looks at is done together with the start of the next one, in one pass over memory.

@@ -8,8 +8,8 @@
 #include "comm.h"
 #include "error.h"
 #include "force.h"
-#include "neigh_list.h"
 #include "model/step_control.h"
+#include "neigh_list.h"
 #include "pair_gran_cluster.h"
 #include "update.h"
 #include "utils.h"
@@ -34,11 +34,10 @@ void GranularPairs::find(const std::string &fix, int groupbit, double largest_di
       pairs.push_back(pair);
     }
   if (pairs.empty())
-    error->all(FLERR, "{} needs a granular pair style (granular or gran/*), but the pair style is {}",
-               fix, force->pair_style ? force->pair_style : "none");
+    error->all(FLERR, "{} needs a granular pair style (granular or gran/*), but the pair style is {}", fix,
+               force->pair_style ? force->pair_style : "none");
   for (const Pair *pair : pairs)
-    if (!pair->single_enable)
-      error->all(FLERR, "{} needs a pair style with a single() function", fix);
+    if (!pair->single_enable) error->all(FLERR, "{} needs a pair style with a single() function", fix);
 
   if (comm->ghost_velocity == 0)
     error->all(FLERR, "{} needs the velocities of ghost clusters: use comm_modify vel yes", fix);
@@ -54,13 +53,13 @@ void GranularPairs::find(const std::string &fix, int groupbit, double largest_di
       if (!anywhere[a] || !anywhere[b]) continue;
       const double cutoff = std::sqrt(force->pair->cutsq[a][b]);
       if (cutoff < largest_diameter * (1.0 - 1.0e-12))
-        error->all(FLERR,
-                   "{}: the pair cutoff of types {} and {} is {}, below the largest cluster diameter {} "
-                   "that the limits allow, so that merged clusters would overlap without a force: add "
-                   "'cutoff {}' to pair_coeff of pair style granular or to pair_style gran/cluster, or for other gran/* "
-                   "use pair_style hybrid/overlay with 'zero {}'",
-                   fix, a, b, cutoff, largest_diameter, largest_diameter * 1.0001,
-                   largest_diameter * 1.0001);
+        error->all(
+            FLERR,
+            "{}: the pair cutoff of types {} and {} is {}, below the largest cluster diameter {} "
+            "that the limits allow, so that merged clusters would overlap without a force: add "
+            "'cutoff {}' to pair_coeff of pair style granular or to pair_style gran/cluster, or for other gran/* "
+            "use pair_style hybrid/overlay with 'zero {}'",
+            fix, a, b, cutoff, largest_diameter, largest_diameter * 1.0001, largest_diameter * 1.0001);
     }
 }
 
@@ -81,8 +80,7 @@ void GranularPairs::find_contacts()
     const auto *ours = dynamic_cast<const PairGranCluster *>(pair);
     if (ours && ours->contacts_recorded(update->ntimestep - 1))
       for (const auto &c : ours->contacts()) touching.push_back({c.i, c.j, pair, true, {c.power, c.force}});
-    else
-      walk(pair);
+    else walk(pair);
   }
 }
 
@@ -159,8 +157,11 @@ GranularPairs::Meeting GranularPairs::meeting(const Survey::Mine &mine, double e
   Meeting m = {};
   if (first == comm->me) {
     const double mi = atom->rmass[mine.i], mj = atom->rmass[mine.j];
-    m = {{(double) atom->tag[mine.i], (double) atom->tag[mine.j]}, mine.overlap,
-         2.0 * MIN(atom->radius[mine.i], atom->radius[mine.j]), mine.closing, mi * mj / (mi + mj)};
+    m = {{(double) atom->tag[mine.i], (double) atom->tag[mine.j]},
+         mine.overlap,
+         2.0 * MIN(atom->radius[mine.i], atom->radius[mine.j]),
+         mine.closing,
+         mi * mj / (mi + mj)};
   }
   if (first < comm->nprocs) MPI_Bcast(&m, sizeof(m), MPI_BYTE, first, world);
   return m;

@@ -29,7 +29,7 @@ class GranularPairs : protected Pointers {
   struct Contact {
     int i, j;    // as they stand in the neighbor list: i is owned
     Pair *pair;
-    bool noted;            // its load is known already
+    bool noted;    // its load is known already
     Load noted_load;
   };
 

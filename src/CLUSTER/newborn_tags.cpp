@@ -24,21 +24,23 @@ void NewbornTags::assign(std::vector<Birth> &births)
   MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (all == 0) return;
   if (highest + all >= MAXTAGINT)    // the engine takes no atom with the highest number itself
-    error->all(FLERR, "Newborn clusters would need the atom ID {}, above the largest of this LAMMPS "
-               "build ({}): build with -DLAMMPS_SIZES=bigbig", highest + all, MAXTAGINT);
+    error->all(FLERR,
+               "Newborn clusters would need the atom ID {}, above the largest of this LAMMPS "
+               "build ({}): build with -DLAMMPS_SIZES=bigbig",
+               highest + all, MAXTAGINT);
 
   std::vector<int> procs;
   for (std::size_t k = 0; k < births.size(); k++) {
     births[k].proc = comm->me;
     births[k].index = static_cast<int>(k);
-    procs.push_back(static_cast<int>((births[k].parent - 1) * static_cast<bigint>(comm->nprocs) /
-                                     MAX(highest, 1)));
+    procs.push_back(
+        static_cast<int>((births[k].parent - 1) * static_cast<bigint>(comm->nprocs) / MAX(highest, 1)));
     procs.back() = std::min(std::max(procs.back(), 0), comm->nprocs - 1);
   }
 
   char *out = nullptr;
-  const int n = comm->rendezvous(0, static_cast<int>(births.size()), (char *) births.data(), sizeof(Birth),
-                                 0, procs.data(), number_bucket, 0, out, sizeof(Birth), this);
+  const int n = comm->rendezvous(0, static_cast<int>(births.size()), (char *) births.data(), sizeof(Birth), 0,
+                                 procs.data(), number_bucket, 0, out, sizeof(Birth), this);
   const Birth *numbered = (const Birth *) out;
   for (int k = 0; k < n; k++) births[numbered[k].index].first = numbered[k].first;
   memory->sfree(out);

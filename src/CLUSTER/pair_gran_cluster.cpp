@@ -25,8 +25,8 @@ static constexpr int HISTORY = 3;    // tangential displacement
 // Two clusters in contact: the normal n points from j to i, forces act on i.
 struct PairGranCluster::Touching {
   double r, overlap, m, eta, f_n;    // m: reduced mass
-  Vec3 n, slip;        // slip: tangential velocity of i relative to j where they touch
-  Vec3 velocity;       // of i's centre relative to j's
+  Vec3 n, slip;                      // slip: tangential velocity of i relative to j where they touch
+  Vec3 velocity;                     // of i's centre relative to j's
   Vec3 friction{0.0, 0.0, 0.0};
 
   Vec3 force() const { return f_n * n + friction; }
@@ -62,14 +62,11 @@ void PairGranCluster::settings(int narg, char **arg)
         law.nu = args.number("delta_max poisson NU", rule);
         if (!(law.nu > -1.0 && law.nu <= 0.5)) args.refuse("delta_max poisson NU", rule);
         law.k_t = 0.0;
-      } else
-        law.k_t = args.positive("delta_max kt K_T", "force/length");
+      } else law.k_t = args.positive("delta_max kt K_T", "force/length");
     } else if (keyword == "direction")
       law.direction = static_cast<FrictionDirection>(args.choice(keyword, {"displacement", "velocity"}));
-    else if (keyword == "cutoff")
-      cutoff_given = args.positive("cutoff D_MAX", "length");
-    else
-      args.unknown_keyword();
+    else if (keyword == "cutoff") cutoff_given = args.positive("cutoff D_MAX", "length");
+    else args.unknown_keyword();
   }
   if (law.mu == 0.0) law.tangential = Tangential::NONE;    // nothing to remember, nothing to compute
   law.derive();
@@ -81,7 +78,8 @@ void PairGranCluster::settings(int narg, char **arg)
 void PairGranCluster::init_style()
 {
   if (!atom->radius_flag || !atom->rmass_flag)
-    error->all(FLERR, "Pair style gran/cluster requires atom style sphere or cluster: clusters have a diameter and a "
+    error->all(FLERR,
+               "Pair style gran/cluster requires atom style sphere or cluster: clusters have a diameter and a "
                "mass");
   if (comm->ghost_velocity == 0)
     error->all(FLERR, "Pair style gran/cluster needs the velocities of ghost clusters: use comm_modify vel yes");
@@ -218,7 +216,8 @@ template <bool ROTATE, bool FRICTION> void PairGranCluster::compute_contacts()
     const Vec3 force = c.force();
     const double force_sq = dot(force, force);
     if (!std::isfinite(force_sq))
-      error->one(FLERR, "Pair style gran/cluster: the contact force of clusters {} and {} is not finite at step {}: "
+      error->one(FLERR,
+                 "Pair style gran/cluster: the contact force of clusters {} and {} is not finite at step {}: "
                  "their centres are {} apart and their relative speed is {}",
                  atom->tag[i], atom->tag[j], update->ntimestep, c.r, norm(c.velocity));
 
@@ -246,7 +245,8 @@ void PairGranCluster::flatten_list()
   near.clear();
   for (int ii = 0; ii < list->inum; ii++) {
     const int i = list->ilist[ii];
-    for (int slot = 0; slot < list->numneigh[i]; slot++) near.push_back({i, list->firstneigh[i][slot] & NEIGHMASK, slot});
+    for (int slot = 0; slot < list->numneigh[i]; slot++)
+      near.push_back({i, list->firstneigh[i][slot] & NEIGHMASK, slot});
   }
 }
 
@@ -318,8 +318,14 @@ static constexpr int NSETTINGS = 8;
 
 void PairGranCluster::write_restart_settings(FILE *fp)
 {
-  const double settings[NSETTINGS] = {law.k_n, law.e, law.mu, law.nu, law.k_t, cutoff_given,
-                                      static_cast<double>(law.tangential), static_cast<double>(law.direction)};
+  const double settings[NSETTINGS] = {law.k_n,
+                                      law.e,
+                                      law.mu,
+                                      law.nu,
+                                      law.k_t,
+                                      cutoff_given,
+                                      static_cast<double>(law.tangential),
+                                      static_cast<double>(law.direction)};
   fwrite(settings, sizeof(double), NSETTINGS, fp);
 }
 

@@ -29,7 +29,8 @@ class StyleArguments : protected EnginePointers {
   }
   // of any other command that hands over the words after its first ones; `command` names it in messages
   StyleArguments(LAMMPS *lmp, const std::string &command, int narg, char **arg) :
-      EnginePointers(lmp), narg_(narg), arg_(arg), i_(0), offset_(static_cast<int>(arg - input->arg)), command_(command)
+      EnginePointers(lmp), narg_(narg), arg_(arg), i_(0), offset_(static_cast<int>(arg - input->arg)),
+      command_(command)
   {
   }
 
@@ -48,8 +49,7 @@ class StyleArguments : protected EnginePointers {
 
   [[noreturn]] void refuse(const std::string &what, const std::string &rule) const
   {
-    error->all(FLERR, caret(), "Illegal {} {} value: {} (must be {})", command_, what, arg_[i_ - 1],
-               rule);
+    error->all(FLERR, caret(), "Illegal {} {} value: {} (must be {})", command_, what, arg_[i_ - 1], rule);
   }
 
   [[noreturn]] void unknown_keyword() const

@@ -36,9 +36,12 @@ class ErrorWords {
   {
     const std::string message = fmt::format(text, args...);
     if (fix)
-      for (const std::string &me : {fmt::format("Fix {} {}", fix->style, fix->id), fmt::format("Fix {} ", fix->style)})
+      for (const std::string &me :
+           {fmt::format("Fix {} {}", fix->style, fix->id), fmt::format("Fix {} ", fix->style)})
         if (message.compare(0, me.size(), me) == 0)
-          real->fix_error(file, line, fix, message.substr(std::min(message.find_first_not_of(": ", me.size()), message.size())).c_str());
+          real->fix_error(
+              file, line, fix,
+              message.substr(std::min(message.find_first_not_of(": ", me.size()), message.size())).c_str());
     real->all(file, line, message.c_str());
     std::abort();    // never reached: LIGGGHTS does not say that all() does not return
   }
@@ -104,8 +107,8 @@ class CommWords {
   const double *cutghost, &cutghostuser;
 
   explicit CommWords(Comm *c) :
-      me(c->me), nprocs(c->nprocs), ghost_velocity(c->ghost_velocity), procgrid(c->procgrid), cutghost(c->cutghost),
-      cutghostuser(c->cutghostuser), real(c)
+      me(c->me), nprocs(c->nprocs), ghost_velocity(c->ghost_velocity), procgrid(c->procgrid),
+      cutghost(c->cutghost), cutghostuser(c->cutghostuser), real(c)
   {
   }
 

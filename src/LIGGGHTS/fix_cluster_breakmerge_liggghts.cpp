@@ -37,7 +37,8 @@ void FixClusterBreakMergeLiggghts::init()
   FixClusterBreakMerge::init();
   auto *pair = dynamic_cast<PairGran *>(force->pair_match("gran", 0));
   if (looks_at_power() && !pair->fix_contact_forces())
-    error->all(FLERR, "Fix {} {}: the pair_style command was given anew after this fix: define the fix after it", style, id);
+    error->all(FLERR, "Fix {} {}: the pair_style command was given anew after this fix: define the fix after it",
+               style, id);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -30,12 +30,9 @@ template <class T> std::string to_text(const T &value, const std::string &spec)
       if (std::strtod(text, nullptr) == value) break;
     }
     return text;
-  } else if constexpr (std::is_same_v<T, char>)
-    return std::string(1, value);
-  else if constexpr (std::is_integral_v<T>)
-    return std::to_string(value);
-  else
-    return std::string(value);
+  } else if constexpr (std::is_same_v<T, char>) return std::string(1, value);
+  else if constexpr (std::is_integral_v<T>) return std::to_string(value);
+  else return std::string(value);
 }
 
 template <class... Args> std::string format(const std::string &text, const Args &...args)

@@ -37,7 +37,8 @@ template <class FixClass> Fix *create(LAMMPS *lmp, int narg, char **arg)
 }    // namespace
 
 // The constructor Modify::Modify(LAMMPS *) under its name in the library: that of LIGGGHTS is called first.
-extern "C" __attribute__((visibility("default"))) void _ZN9LAMMPS_NS6ModifyC1EPNS_6LAMMPSE(Modify *self, LAMMPS *lmp)
+extern "C" __attribute__((visibility("default"))) void _ZN9LAMMPS_NS6ModifyC1EPNS_6LAMMPSE(Modify *self,
+                                                                                           LAMMPS *lmp)
 {
   using Constructor = void (*)(Modify *, LAMMPS *);
   static const auto real = reinterpret_cast<Constructor>(dlsym(RTLD_NEXT, "_ZN9LAMMPS_NS6ModifyC1EPNS_6LAMMPSE"));

@@ -57,9 +57,7 @@ def launch(np_: int) -> list[str]:
     return [] if np_ == 1 else ["mpirun", "--oversubscribe", "-np", str(np_)]
 
 
-def run(
-    folder: Path, script: str, np_: int = 1, check: bool = True, timeout: float = 600, **variables
-) -> Run:
+def run(folder: Path, script: str, np_: int = 1, check: bool = True, timeout: float = 600, **variables) -> Run:
     """Run `script` in `folder` on np_ ranks."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "in.lmp").write_text(script)

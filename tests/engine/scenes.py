@@ -6,8 +6,14 @@ GAS = "fix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 2 fluctuation 3 0 3 ce
 
 
 def busy(
-    steps: int = 2000, every: int = 5, newton: str = "on", options: str = "", count: int = 300, seed: int = 1,
-    model: str | None = None, gas: str = GAS,
+    steps: int = 2000,
+    every: int = 5,
+    newton: str = "on",
+    options: str = "",
+    count: int = 300,
+    seed: int = 1,
+    model: str | None = None,
+    gas: str = GAS,
 ) -> str:
     """A crowded box in gusty gas: hundreds of breaks and merges in 2000 steps."""
     return start(newton, count, seed, model) + fixes(every, options, gas) + outputs() + f"run {steps}\n" + final()
@@ -22,7 +28,8 @@ def start(newton: str = "on", count: int = 300, seed: int = 1, model: str | None
 
 def fixes(every: int = 5, options: str = "", gas: str = GAS) -> str:
     return (
-        "fix move all nve\nfix fall all gravity 9.81 vector 0 0 -1\n" + gas
+        "fix move all nve\nfix fall all gravity 9.81 vector 0 0 -1\n"
+        + gas
         + f"fix size all cluster/breakmerge {every} 1e-4 2000 drag drag K 0.5 merge 0.2 {options}\n"
         "timestep 2e-6\n"
     )

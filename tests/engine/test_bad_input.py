@@ -18,7 +18,10 @@ DRAG_ERRORS = [
     (f"{DRAG} velocity 0 0", "missing velocity uz"),
     (f"{DRAG} velocity 0 0 up", "velocity uz value: up (must be a finite number or v_name [velocity])"),
     (f"{DRAG} velocity 0 0 nan", "velocity uz value: nan"),
-    (f"{DRAG} law newton", "law value: newton (must be trancong | schiller/naumann | stokes | wen/yu | difelice | none)"),
+    (
+        f"{DRAG} law newton",
+        "law value: newton (must be trancong | schiller/naumann | stokes | wen/yu | difelice | none)",
+    ),
     (f"{DRAG} law trancong 1.5 1", "law trancong c value: 1.5 (must be a number > 0 and <= 1)"),
     (f"{DRAG} law trancong 0.8", "missing law trancong dA/dn"),
     (f"{DRAG} law wen/yu 0", "law wen/yu voidage value: 0"),
@@ -28,7 +31,10 @@ DRAG_ERRORS = [
     (f"{DRAG} fluctuation -1 0 0 own frozen 1", "fluctuation amplitude value: -1 (must be a number >= 0 [velocity])"),
     (f"{DRAG} fluctuation 1 0 1 box frozen 1", "fluctuation value: box (must be cell | own)"),
     (f"{DRAG} fluctuation 1 0 1 cell 0 1 30 frozen 1", "fluctuation cell count value: 0 (must be an integer from 1 to"),
-    (f"{DRAG} fluctuation 1 0 1 cell 1000000 1000000 1000001 frozen 1", "value: 1000001 (must be at most 1e+15 cells in all)"),
+    (
+        f"{DRAG} fluctuation 1 0 1 cell 1000000 1000000 1000001 frozen 1",
+        "value: 1000001 (must be at most 1e+15 cells in all)",
+    ),
     (f"{DRAG} fluctuation 1 0 1 own 0 1", "fluctuation PERIOD value: 0 (must be frozen or a time > 0)"),
     (f"{DRAG} fluctuation 1 0 1 own frozen -5", "fluctuation SEED value: -5 (must be an integer from 1 to"),
     (f"{DRAG} table maybe", "table value: maybe (must be no | yes)"),
@@ -117,7 +123,8 @@ def refused(folder, script, message, caret):
 def test_the_exact_diameter_is_told(tmp_path):
     rows = "create_atoms 1 single 0.02 0.0015 0.02\nset atom 1 diameter 928e-6\nset atom 1 density 1000\n"
     refused(
-        tmp_path, base(rows) + f"{DRAG}\n{SIZE} {GOOD}\nrun 0\n",
+        tmp_path,
+        base(rows) + f"{DRAG}\n{SIZE} {GOOD}\nrun 0\n",
         f"which is 399.59 primary particles, not a whole number within 1e-6: 400 particles at voidage 0.5 need diameter {diameter(400):.10g}",
         caret=False,
     )
@@ -125,7 +132,12 @@ def test_the_exact_diameter_is_told(tmp_path):
 
 def test_wrong_diameter_for_the_mass(tmp_path):
     rows = clusters((400, (0.02, 0.02), (0.0, 0.0))) + "set atom 1 diameter 9e-4\n"
-    refused(tmp_path, base(rows) + f"{DRAG}\n{SIZE} {GOOD}\nrun 0\n", "has diameter 0.0009, which does not fit its 400 primary particles", False)
+    refused(
+        tmp_path,
+        base(rows) + f"{DRAG}\n{SIZE} {GOOD}\nrun 0\n",
+        "has diameter 0.0009, which does not fit its 400 primary particles",
+        False,
+    )
 
 
 def test_order(tmp_path):
@@ -139,7 +151,10 @@ def test_other_scenes_that_are_refused(tmp_path):
     atomic = head().replace("sphere", "atomic") + "pair_style zero 0.01\npair_coeff * *\nmass 1 1\n"
     refused(tmp_path / "atomic", atomic + DRAG + "\n", "requires atom style sphere", False)
     refused(tmp_path / "atomic2", atomic + f"{SIZE} 1 1e-4 2000 K 1 terms cc\n", "requires atom style sphere", False)
-    flat = "units si\ndimension 2\natom_style sphere\nregion box block 0 1 0 1 -0.1 0.1\ncreate_box 1 box\ncomm_modify vel yes\n" + pair()
+    flat = (
+        "units si\ndimension 2\natom_style sphere\nregion box block 0 1 0 1 -0.1 0.1\ncreate_box 1 box\ncomm_modify vel yes\n"
+        + pair()
+    )
     refused(tmp_path / "flat", flat + f"{SIZE} 1 1e-4 2000 K 1 terms cc\n", "use dimension 3 with 'plane xz'", False)
     still = base().replace("comm_modify  vel yes", "comm_modify  vel no") + f"{DRAG}\n{SIZE} {GOOD}\nrun 0\n"
     refused(tmp_path / "still", still, "requires ghost atoms store velocity", False)

@@ -50,7 +50,12 @@ def test_sheared_crowd(tmp_path):
 
 def test_other_contact_laws(tmp_path):
     for law in ("hertz", "md"):
-        assert case(tmp_path / law, "case1", contact=law, atoms="sphere", motion="nve").dump("case1.00000200.dump")["n"].sum() == 2_000_000
+        assert (
+            case(tmp_path / law, "case1", contact=law, atoms="sphere", motion="nve")
+            .dump("case1.00000200.dump")["n"]
+            .sum()
+            == 2_000_000
+        )
 
 
 def test_controlled_step_changes_nothing_where_nothing_is_rejected(tmp_path):
@@ -81,7 +86,10 @@ def test_start_is_the_local_gas_velocity_without_overlaps(tmp_path):
     x, z, d = first["x"][order], first["z"][order], first["diameter"][0]
     for shift in range(1, 60):  # neighbours in x order are the only ones that could overlap
         dx, dz = x[shift:] - x[:-shift], np.abs(z[shift:] - z[:-shift])
-        assert np.hypot(dx, np.minimum(dz, 0.6 - dz))[dx < d].size == 0 or np.hypot(dx, np.minimum(dz, 0.6 - dz))[dx < d].min() >= d
+        assert (
+            np.hypot(dx, np.minimum(dz, 0.6 - dz))[dx < d].size == 0
+            or np.hypot(dx, np.minimum(dz, 0.6 - dz))[dx < d].min() >= d
+        )
 
 
 def test_plugin_survives_clear(tmp_path):

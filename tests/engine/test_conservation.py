@@ -11,9 +11,7 @@ LAYOUTS = [(1, "on"), (2, "on"), (4, "on"), (1, "off"), (2, "off"), (4, "off")]
 @pytest.fixture(scope="module")
 def runs(tmp_path_factory):
     folder = tmp_path_factory.mktemp("busy")
-    return {
-        (n, newton): run(folder / f"{n}-{newton}", scenes.busy(newton=newton), n) for n, newton in LAYOUTS
-    }
+    return {(n, newton): run(folder / f"{n}-{newton}", scenes.busy(newton=newton), n) for n, newton in LAYOUTS}
 
 
 def test_hundreds_of_events(runs):
@@ -56,10 +54,15 @@ def test_momentum_is_conserved_by_contacts_breaks_and_merges(tmp_path, np_):
     """No gas drag, no gravity: only contacts and events act, so the total momentum stays."""
     gas = "fix drag all drag/cluster 1.2 1.53e-5 velocity 3 0 5 law none\n"
     script = (
-        scenes.start() + "fix move all nve\n" + gas
+        scenes.start()
+        + "fix move all nve\n"
+        + gas
         + "fix size all cluster/breakmerge 3 1e-4 2000 drag drag K 0.3 terms cc mf merge 0.2 umf 0.001 epsmf 0 gravity 0.001 z\n"
         "timestep 2e-6\nvariable px equal vcm(all,x)*mass(all)\nvariable pz equal vcm(all,z)*mass(all)\n"
-        "fix p all ave/time 1 1 100 v_px v_pz file p.txt format \" %.17g\"\n" + scenes.outputs() + "run 4000\n" + scenes.final()
+        'fix p all ave/time 1 1 100 v_px v_pz file p.txt format " %.17g"\n'
+        + scenes.outputs()
+        + "run 4000\n"
+        + scenes.final()
     )
     r = run(tmp_path, script, np_)
     last, p = r.table()[-1], r.table("p.txt")

@@ -18,11 +18,16 @@ def k_for(n_l: float, gas=(0.0, 2.0), v=(0.0, 0.0)) -> float:
 def scene(rows: str, size: str, steps: int = 1, gas: str = "velocity 0 0 2", fixes: str = "", dt: float = 1e-12, **box):
     """Frozen in time (dt = 1e-12 s), so that an event alone changes the state."""
     return (
-        head(**box) + rows + pair() + "fix move all nve\n"
-        + f"fix drag all drag/cluster {RHO_G} {NU_G} {gas} law stokes\n" + fixes
+        head(**box)
+        + rows
+        + pair()
+        + "fix move all nve\n"
+        + f"fix drag all drag/cluster {RHO_G} {NU_G} {gas} law stokes\n"
+        + fixes
         + f"fix size all cluster/breakmerge 1 {D_P} {RHO_P} drag drag {size}\n"
-        + f"timestep {dt}\nfix table all ave/time 1 1 1 f_size[*] mode scalar file out.txt format \" %.17g\"\n"
-        + f"run {steps}\n" + write("xu", "zu", *COLUMNS)
+        + f'timestep {dt}\nfix table all ave/time 1 1 1 f_size[*] mode scalar file out.txt format " %.17g"\n'
+        + f"run {steps}\n"
+        + write("xu", "zu", *COLUMNS)
     )
 
 
@@ -36,7 +41,8 @@ def gaps(row: dict, box=(0.04, 0.04)) -> np.ndarray:
 
 @pytest.mark.parametrize("place", [(0.02, 0.02), (1e-4, 0.02), (0.0399, 3e-4)])
 @pytest.mark.parametrize(
-    "n, n_l, pieces", [(400, 199, [199, 201]), (400, 120, [120] * 3 + [40]), (401, 100, [100] * 3 + [101]), (50, 3, [3] * 15 + [5])]
+    "n, n_l, pieces",
+    [(400, 199, [199, 201]), (400, 120, [120] * 3 + [40]), (401, 100, [100] * 3 + [101]), (50, 3, [3] * 15 + [5])],
 )
 def test_one_cluster_breaks_into_the_plan(tmp_path, n, n_l, pieces, place):
     v = (0.3, -0.2)
@@ -56,7 +62,7 @@ def test_one_cluster_breaks_into_the_plan(tmp_path, n, n_l, pieces, place):
 
 def test_hysteresis(tmp_path):
     for h, count in ((0.26, 1), (0.25, 2)):
-        script = scene(clusters((400, (0.02, 0.02), (0, 0))), f"K {k_for(202) !r} terms st hysteresis {h}")
+        script = scene(clusters((400, (0.02, 0.02), (0, 0))), f"K {k_for(202)!r} terms st hysteresis {h}")
         # d/l = (400/202)^(1/3) = 1.2558
         assert len(run(tmp_path / str(h), script).dump()["id"]) == count
 
@@ -85,7 +91,9 @@ def test_large_breaks_go_in_stages(tmp_path):
 def test_walls_hold_fragments_in(tmp_path):
     """Clusters break all over a box with walls in x: no fragment is born beyond one."""
     text = scene(random_clusters(200), f"K {k_for(60.5)!r} terms st", steps=20)
-    text = text.replace("boundary     p f p", "boundary     f f p").replace("plane block EDGE EDGE", "plane block 6e-4 0.0394")
+    text = text.replace("boundary     p f p", "boundary     f f p").replace(
+        "plane block EDGE EDGE", "plane block 6e-4 0.0394"
+    )
     r = run(tmp_path, text)
     row = r.dump()
     assert r.table()[-1, 3] > 80
@@ -123,7 +131,11 @@ def test_two_clusters_merge(tmp_path, x):
         ("too many", two(1200, 801)[0], "K 1 terms mf"),
         ("larger than l", two(400, 300)[0], f"K {k_for(699, gas=(0, 2), v=(1, 0))!r} terms st"),
         ("off", two()[0], "K 1 terms mf merge no"),
-        ("apart", clusters((400, (0.02, 0.02), (1, 0)), (400, (0.02 + 1.001 * diameter(400), 0.02), (1, 0))), "K 1 terms mf"),
+        (
+            "apart",
+            clusters((400, (0.02, 0.02), (1, 0)), (400, (0.02 + 1.001 * diameter(400), 0.02), (1, 0))),
+            "K 1 terms mf",
+        ),
     ],
 )
 def test_no_merge(tmp_path, what, rows, size):
@@ -155,7 +167,11 @@ def test_refused_merge_may_break(tmp_path):
 def test_best_partner_wins(tmp_path):
     """Three in a row: the middle one merges with the one that moves more alike."""
     d = diameter(100)
-    rows = clusters((100, (0.02, 0.02), (1, 0.006)), (100, (0.02 + TOUCH * d, 0.02), (1, 0)), (100, (0.02 + 2 * TOUCH * d, 0.02), (1, 0.003)))
+    rows = clusters(
+        (100, (0.02, 0.02), (1, 0.006)),
+        (100, (0.02 + TOUCH * d, 0.02), (1, 0)),
+        (100, (0.02 + 2 * TOUCH * d, 0.02), (1, 0.003)),
+    )
     row = run(tmp_path, scene(rows, "K 1 terms mf")).dump()
     assert row["id"].tolist() == [1, 2] and row["f_size[1]"].tolist() == [100, 200]
 
@@ -171,16 +187,20 @@ def test_merge_that_would_press_into_a_third_waits(tmp_path):
 
 # ---- readings, against the formulas of MODEL.md section 2 ----
 
+
 def stokes(d):
     return 3 * np.pi * RHO_G * NU_G * d
 
 
 def measured(tmp_path, size, count=120):
     script = (
-        head() + random_clusters(count) + pair()
+        head()
+        + random_clusters(count)
+        + pair()
         + "variable u atom random(-4,4,77)\nvariable w atom random(-4,4,78)\nvelocity all set v_u 0.0 v_w\nfix move all nve\n"
         + f"fix drag all drag/cluster {RHO_G} {NU_G} velocity 0.5 0 2 law stokes fluctuation 0.7 0 0.7 cell 7 1 7 frozen 3\n"
-        + f"fix size all cluster/breakmerge 1 {D_P} {RHO_P} drag drag {size}\nrun 0\n" + write("f_drag[*]", *COLUMNS)
+        + f"fix size all cluster/breakmerge 1 {D_P} {RHO_P} drag drag {size}\nrun 0\n"
+        + write("f_drag[*]", *COLUMNS)
     )
     row = run(tmp_path, script).dump()
     assert np.abs(row["vz"]).max() > 1e-3
@@ -231,11 +251,15 @@ def test_wen_yu_and_k_emms(tmp_path):
     assert 5 < np.count_nonzero((expected > lo) & (expected < hi))
 
 
-@pytest.mark.parametrize("test, at_once, later", [("always", True, True), ("contact", False, False), ("end", False, False)])
+@pytest.mark.parametrize(
+    "test, at_once, later", [("always", True, True), ("contact", False, False), ("end", False, False)]
+)
 def test_which_clusters_are_tested(tmp_path, test, at_once, later):
     """A touching pair (1, 2) that parts, and one alone (3), all above (1 + h) l."""
     rows, _ = two(400, 400, v1=(-1.0, 0.0), v2=(1.0, 0.0))
-    rows += f"create_atoms 1 single 0.005 0.0015 0.005\nset atom 3 diameter {diameter(400)!r}\nset atom 3 density 1000.0\n"
+    rows += (
+        f"create_atoms 1 single 0.005 0.0015 0.005\nset atom 3 diameter {diameter(400)!r}\nset atom 3 density 1000.0\n"
+    )
     size = f"K {k_for(100)!r} terms st merge no test {test}"
     first = run(tmp_path / "first", scene(rows, size))  # the pair still touches
     last = run(tmp_path / "last", scene(rows, size, steps=30, dt=1e-7))  # it has parted
@@ -251,7 +275,7 @@ def test_without_breaks_or_merges_nothing_happens(tmp_path):
 
 
 def test_space_instead_of_a_plane(tmp_path):
-    """plane none: fragments fill a lattice in space."""
+    """Plane none: fragments fill a lattice in space."""
     rows = f"create_atoms 1 single 0.01 0.01 0.01\nset atom 1 diameter {diameter(2000)!r}\nset atom 1 density 1000.0\n"
     script = scene(rows, f"K {k_for(50.5)!r} terms st plane none").replace("boundary     p f p", "boundary p p p")
     script = script.replace("0 0.003 0 0.04", "0 0.02 0 0.04")
@@ -265,10 +289,18 @@ def test_space_instead_of_a_plane(tmp_path):
 
 def test_newborns_draw_a_fluctuation_of_their_own(tmp_path):
     gas = "velocity 0 0 2 fluctuation 0.1 0 0.1 own frozen 5"
-    before = run(tmp_path / "a", scene(clusters((400, (0.02, 0.02), (0, 0))), "K 100 terms st", gas=gas, steps=0).replace(
-        write("xu", "zu", *COLUMNS), write("f_drag[*]"))).dump()["f_drag[1]"]
-    row = run(tmp_path / "b", scene(clusters((400, (0.02, 0.02), (0, 0))), f"K {k_for(50)!r} terms st", gas=gas).replace(
-        write("xu", "zu", *COLUMNS), write("f_drag[*]"))).dump()
+    before = run(
+        tmp_path / "a",
+        scene(clusters((400, (0.02, 0.02), (0, 0))), "K 100 terms st", gas=gas, steps=0).replace(
+            write("xu", "zu", *COLUMNS), write("f_drag[*]")
+        ),
+    ).dump()["f_drag[1]"]
+    row = run(
+        tmp_path / "b",
+        scene(clusters((400, (0.02, 0.02), (0, 0))), f"K {k_for(50)!r} terms st", gas=gas).replace(
+            write("xu", "zu", *COLUMNS), write("f_drag[*]")
+        ),
+    ).dump()
     u = np.append(row["f_drag[1]"], before)
     assert len(u) > 5 and len(np.unique(u)) == len(u)
 

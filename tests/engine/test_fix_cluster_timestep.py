@@ -24,13 +24,17 @@ def two(v: float, offset: float = 0.0, n: int = 400, gap: float = 2e-5) -> str:
 def scene(bodies: str, contact: str, control: str, steps: int, motion: str = "nve/sphere", more: str = "") -> str:
     """A table out.txt of every step: time and the fix's vector; all states in steps.dump."""
     return (
-        head() + bodies + contact + (f"fix dt all cluster/timestep {control}\n" if control else "")
-        + f"fix move all {motion}\n" + more + ENERGIES
-        + (
-            'fix table all ave/time 1 1 1 v_time f_dt[*] mode scalar file out.txt format " %.17g"\n' if control else ""
-        )
+        head()
+        + bodies
+        + contact
+        + (f"fix dt all cluster/timestep {control}\n" if control else "")
+        + f"fix move all {motion}\n"
+        + more
+        + ENERGIES
+        + ('fix table all ave/time 1 1 1 v_time f_dt[*] mode scalar file out.txt format " %.17g"\n' if control else "")
         + f"dump steps all custom 1 steps.dump {COLUMNS}\ndump_modify steps sort id format float %.17g\n"
-        + "thermo 100\nthermo_modify lost error\n" + f"run {steps}\n"
+        + "thermo 100\nthermo_modify lost error\n"
+        + f"run {steps}\n"
     )
 
 
@@ -52,7 +56,8 @@ def test_step_is_the_smallest_of_its_bounds(tmp_path):
 
 def test_rejected_drift_is_repeated_as_if_it_had_not_been(tmp_path):
     """The first step would drive 928 um clusters through each other; after it is rejected the state is bit for bit
-    that of a run that took the smaller step at once."""
+    that of a run that took the smaller step at once.
+    """
     control = "4e-5 contact off energy off predict no overlap 0.5 floor 1e-8"
     rejected = run(tmp_path / "rejected", scene(two(20.0, 3e-4), gran(1e4), control, 1))
     row = rejected.table()[-1]
@@ -71,7 +76,8 @@ GUSTS = "fix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 2 fluctuation 3 0 3 
 
 def energy_rejection(tmp_path, more: str = ""):
     """Oblique elastic impact with friction. Rows of the table, the rejected steps, and the first of them that finds the
-    clusters sliding on each other."""
+    clusters sliding on each other.
+    """
     control = "4e-6 contact off energy 1e-5 floor 1e-9"
     r = run(tmp_path / "controlled", scene(OBLIQUE, gran(1e3), control, 60, more=more))
     rows = r.table()
@@ -95,7 +101,8 @@ def test_energy_rejection_puts_everything_back(tmp_path):
 @pytest.mark.parametrize("more", ["", GUSTS], ids=["alone", "in gusts"])
 def test_history_and_gusts_are_put_back_too(tmp_path, more):
     """The run equals, to the bit, one that took the accepted steps alone: had a rejected one left anything behind in the
-    contact history or in the gas, which is drawn anew every 5 us, friction or drag would tell."""
+    contact history or in the gas, which is drawn anew every 5 us, friction or drag would tell.
+    """
     r, rows, rejected, n = energy_rejection(tmp_path, more)
     frames = r.frames("steps.dump")
     last = max(k for k in range(n, len(rows)) if np.abs(frames[k]["tqy"]).max() > 0)
@@ -111,7 +118,8 @@ def test_history_and_gusts_are_put_back_too(tmp_path, more):
 
 def test_contacts_create_no_energy(tmp_path):
     """A head-on elastic rebound with 7 steps in contact: left alone it can come out faster than it went in, depending
-    on where the first step falls; with the test it never does, beyond what the tolerance adds up to."""
+    on where the first step falls; with the test it never does, beyond what the tolerance adds up to.
+    """
     gained = {"off": [], "1e-5": []}
     for k, gap in enumerate(np.linspace(1e-5, 9e-5, 8)):
         for energy, gains in gained.items():
@@ -128,7 +136,8 @@ def test_contacts_create_no_energy(tmp_path):
 @pytest.mark.parametrize("offset", [0.0, 3e-4])
 def test_energy_that_is_all_but_gone_is_not_tested(tmp_path, offset):
     """After an impact with e = 0, seen from the centre of mass, what is left falls to the rounding of positions: no share
-    of that means anything, and the run goes on."""
+    of that means anything, and the run goes on.
+    """
     contact = gran(10.0, 0.0, options="tangential linear")
     rows = run(tmp_path, scene(two(0.5, offset), contact, "1e-4", 1500)).table()
     assert rows[-1, STEP] == 1500 and rows[-1, LET_PASS] == 0
@@ -202,13 +211,23 @@ def busy(steps: int, contact: str | None = None, control: str = "4e-6 energy 1e-
         "variable u atom 0.4*sin(79190*x+104729*z)\nvariable w atom 2+0.4*sin(61379*x-94321*z)\n"
         "velocity all set v_u 0 v_w\n"
     )
-    return head(newton=np_newton) + random_clusters(300) + (contact or gran(10.0, 0.3)) + stir + fixes(control) + f"run {steps}\n" + write()
+    return (
+        head(newton=np_newton)
+        + random_clusters(300)
+        + (contact or gran(10.0, 0.3))
+        + stir
+        + fixes(control)
+        + f"run {steps}\n"
+        + write()
+    )
 
 
 def fixes(control: str) -> str:
     return (
-        f"fix dt all cluster/timestep {control}\nfix move all nve\nfix fall all gravity 9.81 vector 0 0 -1\n" + GAS
-        + "fix size all cluster/breakmerge 5 1e-4 2000 drag drag K 0.5 merge 0.2\n" + ENERGIES
+        f"fix dt all cluster/timestep {control}\nfix move all nve\nfix fall all gravity 9.81 vector 0 0 -1\n"
+        + GAS
+        + "fix size all cluster/breakmerge 5 1e-4 2000 drag drag K 0.5 merge 0.2\n"
+        + ENERGIES
         + 'fix table all ave/time 1 1 1 v_time f_dt[*] f_size[*] mode scalar file out.txt format " %.17g"\n'
         "thermo 500\nthermo_modify lost error\n"
     )
@@ -232,7 +251,8 @@ def test_with_events_count_mass_and_energy_hold(tmp_path):
 @pytest.mark.parametrize("newton", ["on", "off"])
 def test_same_steps_on_any_ranks(tmp_path, newton):
     """Rejections included. Sums are added in another order and elastic collisions amplify the rounding: 200 steps, times
-    to 1e-9."""
+    to 1e-9.
+    """
     control = "1.6e-5 contact off energy 1e-8"
     one = run(tmp_path / "1", busy(200, gran(), control))
     assert one.table()[-1, BY_ENERGY] > 0
@@ -254,7 +274,9 @@ def test_a_restart_continues(tmp_path):
     assert whole.table()[-1, BY_ENERGY] > 0
     resumed = (
         "atom_modify map hash sort 0 0\ncomm_modify vel yes cutoff 5.7e-3\nread_restart half.restart\nneighbor 0.5e-3 bin\n"
-        + fixes(control).replace("out.txt", "resumed.txt") + "run 400\n" + write(name="resumed.dump")
+        + fixes(control).replace("out.txt", "resumed.txt")
+        + "run 400\n"
+        + write(name="resumed.dump")
     )
     r = run(tmp_path, resumed)
     a, b = whole.dump(), r.dump("resumed.dump")
@@ -295,7 +317,11 @@ def test_works_with_stock_pairs_without_the_energy_test(tmp_path):
 def test_must_come_before_what_moves_clusters(tmp_path):
     text = scene(two(0.1), gran(), "1e-6", 1)
     line = "fix dt all cluster/timestep 1e-6\n"
-    r = run(tmp_path, text.replace(line, "").replace("fix move all nve/sphere\n", "fix move all nve/sphere\n" + line), check=False)
+    r = run(
+        tmp_path,
+        text.replace(line, "").replace("fix move all nve/sphere\n", "fix move all nve/sphere\n" + line),
+        check=False,
+    )
     assert r.code != 0 and "must be defined before fix move (nve/sphere)" in r.output
     r = run(tmp_path, text.replace("fix dt all", "group some id 1\nfix dt some"), check=False)
     assert r.code != 0 and "group: some (must be all" in r.output

@@ -9,8 +9,13 @@ RHO_G, NU_G = 1.2, 1.53e-5
 
 def one_cluster(drag: str, n: int = 400, v=(0.0, 0.0), steps: int = 0, more: str = "", dt: float = 1e-6) -> str:
     return (
-        head() + clusters((n, (0.02, 0.02), v)) + pair() + "fix move all nve\n" + more
-        + f"fix drag all drag/cluster {RHO_G} {NU_G} {drag}\ntimestep {dt}\nrun {steps}\n" + write("f_drag[*]")
+        head()
+        + clusters((n, (0.02, 0.02), v))
+        + pair()
+        + "fix move all nve\n"
+        + more
+        + f"fix drag all drag/cluster {RHO_G} {NU_G} {drag}\ntimestep {dt}\nrun {steps}\n"
+        + write("f_drag[*]")
     )
 
 
@@ -110,8 +115,11 @@ def test_unshielded_blends_with_single_particles(tmp_path):
 def test_profile_is_exact_where_the_gas_is_linear(tmp_path):
     (tmp_path / "gas.txt").write_text("# x ux uy uz\n0 0 0 1\n0.01 0.5 0 2\n0.04 0.5 0 -4\n")
     text = random_clusters(60)
-    script = head() + text + pair() + (
-        "fix move all nve\nfix drag all drag/cluster 1.2 1.53e-5 profile gas.txt x\nrun 0\n" + write("f_drag[*]")
+    script = (
+        head()
+        + text
+        + pair()
+        + ("fix move all nve\nfix drag all drag/cluster 1.2 1.53e-5 profile gas.txt x\nrun 0\n" + write("f_drag[*]"))
     )
     row = run(tmp_path, script).dump()
     assert row["f_drag[3]"] == pytest.approx(np.interp(row["x"], [0, 0.01, 0.04], [1, 2, -4]), abs=1e-13)
@@ -119,9 +127,14 @@ def test_profile_is_exact_where_the_gas_is_linear(tmp_path):
 
 
 def test_variables_give_the_gas_velocity(tmp_path):
-    script = head() + random_clusters(20) + pair() + (
-        "variable a equal 0.5+step\nvariable b atom 3*x-z\nfix move all nve\n"
-        "fix drag all drag/cluster 1.2 1.53e-5 velocity v_a 0 v_b\ntimestep 1e-7\nrun 2\n" + write("f_drag[*]")
+    script = (
+        head()
+        + random_clusters(20)
+        + pair()
+        + (
+            "variable a equal 0.5+step\nvariable b atom 3*x-z\nfix move all nve\n"
+            "fix drag all drag/cluster 1.2 1.53e-5 velocity v_a 0 v_b\ntimestep 1e-7\nrun 2\n" + write("f_drag[*]")
+        )
     )
     row = run(tmp_path, script).dump()
     assert np.all(row["f_drag[1]"] == 2.5)
@@ -130,10 +143,16 @@ def test_variables_give_the_gas_velocity(tmp_path):
 
 # ---- fluctuation ----
 
+
 def fluctuating(text: str, steps: int = 0, newton: str = "on", dt: float = 1e-6) -> str:
-    return head(newton=newton) + random_clusters(200) + pair() + (
-        f"fix move all nve\nfix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 2 fluctuation 0.75 0 0.5 {text}\n"
-        f"timestep {dt}\nrun {steps}\n" + write("f_drag[*]")
+    return (
+        head(newton=newton)
+        + random_clusters(200)
+        + pair()
+        + (
+            f"fix move all nve\nfix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 2 fluctuation 0.75 0 0.5 {text}\n"
+            f"timestep {dt}\nrun {steps}\n" + write("f_drag[*]")
+        )
     )
 
 
@@ -185,7 +204,8 @@ def test_refresh_of_one_step_changes_nothing(tmp_path):
 
 def test_held_coefficients_follow_the_velocity(tmp_path):
     """Where the gas changes four times in 400 steps, the change comes up to 9 steps late; where it does not, the error is
-    that of the coefficient alone, of the first order in the time for which it is held."""
+    that of the coefficient alone, of the first order in the time for which it is held.
+    """
     error = {}
     for gas, gusts in (("gusty", "cell 4 1 4 1e-4 3"), ("steady", "cell 1 1 1 frozen 3")):
         exact = run(tmp_path / gas / "1", refreshed(1, gusts=gusts)).dump()

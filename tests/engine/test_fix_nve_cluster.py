@@ -49,8 +49,10 @@ def test_looking_changes_nothing(tmp_path):
 
 def test_forces_and_sums_at_an_output_are_those_of_the_step(tmp_path):
     """Forces in the dump, the drag's total and kinetic energy at a step in the middle of a held stretch."""
-    show = "dump f all custom 37 f.*.dump id vx vz fx fz\ndump_modify f format float %.17g sort id\n" \
+    show = (
+        "dump f all custom 37 f.*.dump id vx vz fx fz\ndump_modify f format float %.17g sort id\n"
         "fix sums all ave/time 37 1 37 f_drag[*] c_thermo_temp file sums.txt format ' %.17g'\n"
+    )
     script = scene(111).replace("thermo 500\n", "thermo 500\n" + show)
     apart, fused = run(tmp_path / "apart", script), run(tmp_path / "together", together(script))
     for step in (37, 74):
@@ -62,11 +64,14 @@ def test_forces_and_sums_at_an_output_are_those_of_the_step(tmp_path):
 
 
 def test_free_fall_is_exact(tmp_path):
-    """z = -g t^2/2, tilted by a direction that is normalised; velocity Verlet is exact here: rounding, 1e-12."""
+    """Z = -g t^2/2, tilted by a direction that is normalised; velocity Verlet is exact here: rounding, 1e-12."""
     fall = run(
         tmp_path,
-        head() + clusters((27, (0.03, 0.03), (0, 0))) + pair()
-        + "fix move all nve/cluster gravity 9.81 3 0 -4\ntimestep 1e-6\nthermo 5000\nrun 5000\n" + write(),
+        head()
+        + clusters((27, (0.03, 0.03), (0, 0)))
+        + pair()
+        + "fix move all nve/cluster gravity 9.81 3 0 -4\ntimestep 1e-6\nthermo 5000\nrun 5000\n"
+        + write(),
     ).dump()
     t = 5000e-6
     assert np.allclose([fall["x"][0], fall["z"][0]], [0.03 + 0.3 * 9.81 * t**2, 0.03 - 0.4 * 9.81 * t**2], rtol=1e-12)
@@ -96,8 +101,10 @@ def test_restart_in_a_held_stretch_continues_bit_equal(tmp_path):
 def test_a_run_cut_short_is_complete(tmp_path):
     """A run that a timeout ends after some step leaves the state of that step, not one half a kick behind."""
     script = together(scene(1))
-    cut = script.replace("run 1\n", "timer timeout 0:00:01 every 10\nrun 100000000\ntimer timeout off\n"
-                         "print $(step) file steps.txt\nrun 7\n")
+    cut = script.replace(
+        "run 1\n",
+        "timer timeout 0:00:01 every 10\nrun 100000000\ntimer timeout off\nprint $(step) file steps.txt\nrun 7\n",
+    )
     ended = run(tmp_path / "cut", cut)
     steps = int((ended.folder / "steps.txt").read_text())
     whole = run(tmp_path / "whole", script.replace("run 1\n", f"run {steps}\nrun 7\n"))
@@ -116,15 +123,18 @@ def test_other_forces_come_last_as_they_are_defined(tmp_path):
 
 def test_moves_its_group_alone(tmp_path):
     script = (
-        head() + clusters((27, (0.03, 0.03), (0, 0)), (27, (0.01, 0.01), (0, 0))) + pair()
-        + "group one id 1\nfix move one nve/cluster gravity 9.81 0 0 -1\ntimestep 1e-5\nrun 100\n" + write()
+        head()
+        + clusters((27, (0.03, 0.03), (0, 0)), (27, (0.01, 0.01), (0, 0)))
+        + pair()
+        + "group one id 1\nfix move one nve/cluster gravity 9.81 0 0 -1\ntimestep 1e-5\nrun 100\n"
+        + write()
     )
     end = run(tmp_path, script).dump()
     assert end["vz"][0] == pytest.approx(-9.81e-3, rel=1e-12) and end["vz"][1] == 0 and end["z"][1] == 0.01
 
 
 def test_a_changing_time_step_finishes_the_last_one_with_the_old(tmp_path):
-    """fix dt/reset looks every 10 steps; with an output at every step nothing is ever postponed."""
+    """Fix dt/reset looks every 10 steps; with an output at every step nothing is ever postponed."""
     script = together(scene(200)).replace("timestep", "fix reset all dt/reset 10 1e-8 4e-6 1e-6\ntimestep")
     seldom = run(tmp_path / "seldom", script).dump()
     often = run(tmp_path / "often", script.replace("thermo 500", "thermo 1")).dump()

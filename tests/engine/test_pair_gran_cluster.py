@@ -20,10 +20,15 @@ def crowd(contact: str, steps: int = 1000, newton: str = "on", atom_style: str =
     stir = "variable u atom 0.5*sin(79190*x+104729*z)\nvariable w atom 0.5*sin(61379*x-94321*z)\nvelocity all set v_u 0 v_w\n"
     move = "sphere" if atom_style == "sphere" else ""
     return (
-        head(newton=newton).replace("atom_style   sphere", f"atom_style   {atom_style}") + random_clusters(count)
-        + small + contact + stir + f"fix move all nve{'/sphere' if move else ''}\ntimestep 2e-6\nthermo 100\n"
+        head(newton=newton).replace("atom_style   sphere", f"atom_style   {atom_style}")
+        + random_clusters(count)
+        + small
+        + contact
+        + stir
+        + f"fix move all nve{'/sphere' if move else ''}\ntimestep 2e-6\nthermo 100\n"
         + "thermo_style custom step ke pe press\nthermo_modify lost error format float %.16g\n"
-        + f"run {steps}\n" + write()
+        + f"run {steps}\n"
+        + write()
     )
 
 
@@ -90,9 +95,8 @@ def test_data_file_of_atom_style_cluster(tmp_path):
         assert np.allclose(read[c], end[c], rtol=1e-14)
 
 
-OBLIQUE = (
-    head(newton="on").replace("boundary     p f p", "boundary p p p")
-    + clusters((400, (0.0195, 0.02), (0.5, 0.0)), (200, (0.0203, 0.0203), (-0.5, 0.0)))
+OBLIQUE = head(newton="on").replace("boundary     p f p", "boundary p p p") + clusters(
+    (400, (0.0195, 0.02), (0.5, 0.0)), (200, (0.0203, 0.0203), (-0.5, 0.0))
 )
 
 
@@ -126,9 +130,7 @@ def test_forces_of_an_oblique_impact(tmp_path, tangential, direction):
         touched += 1
         n = x / dist
         # velocities at half of the step, as the engine has them when it computes forces
-        half = {
-            c: before[c] + 0.5 * dt * before[g] / before["mass"] for c, g in (("vx", "fx"), ("vz", "fz"))
-        }
+        half = {c: before[c] + 0.5 * dt * before[g] / before["mass"] for c, g in (("vx", "fx"), ("vz", "fz"))}
         inertia = 0.4 * before["mass"] * before["radius"] ** 2
         spin = before["omegay"] + 0.5 * dt * before["tqy"] / inertia
         v = np.array([half["vx"][0] - half["vx"][1], half["vz"][0] - half["vz"][1]])
@@ -163,10 +165,13 @@ def test_forces_of_an_oblique_impact(tmp_path, tangential, direction):
 
 def test_energy_of_springs_is_the_potential_energy(tmp_path):
     """Elastic and without friction: kinetic + potential is constant to the scheme's error, (dt omega)^2/8 = 3e-5 of
-    the energy; single() gives the same energy as compute()."""
+    the energy; single() gives the same energy as compute().
+    """
     contact = "pair_style gran/cluster 10 1 0 cutoff 1.5876e-3\npair_coeff * *\n"
     script = sliding(contact, 200, 5e-6) + "compute e all pair/local eng\ncompute s all reduce sum c_e inputs local\n"
-    script = script.replace("thermo_style custom step ke pe", "thermo_style custom step ke pe").replace("run 200", "run 40")
+    script = script.replace("thermo_style custom step ke pe", "thermo_style custom step ke pe").replace(
+        "run 200", "run 40"
+    )
     script += "thermo_style custom step ke pe c_s\nrun 0\n"
     r = run(tmp_path, script)
     lines = [line.split() for line in r.output.splitlines() if re.fullmatch(r"\s*\d+(\s+[-+.e\d]+){2,3}\s*", line)]
@@ -179,7 +184,7 @@ def test_energy_of_springs_is_the_potential_energy(tmp_path):
 def test_restart_keeps_settings_and_contact_history(tmp_path):
     """Bit-equal to a run cut at the same step; the law comes out of the file."""
     options = "tangential md delta_max kt 7.5 direction displacement"
-    whole = run(tmp_path, crowd(gran(options), 400) .replace("run 400", "run 200\nwrite_restart half.restart\nrun 200"))
+    whole = run(tmp_path, crowd(gran(options), 400).replace("run 400", "run 200\nwrite_restart half.restart\nrun 200"))
     resumed = (
         "atom_modify map hash sort 0 0\ncomm_modify vel yes cutoff 5.7e-3\nread_restart half.restart\nneighbor 0.5e-3 bin\n"
         "fix move all nve/sphere\ntimestep 2e-6\nthermo_modify lost error\nrun 200\n" + write(name="resumed.dump")
@@ -191,7 +196,8 @@ def test_restart_keeps_settings_and_contact_history(tmp_path):
 
 def test_size_law_takes_contacts_as_the_pair_met_them(tmp_path):
     """N_cc noted by the pair while it computes is that of the walk over the lists, for contacts of one step before:
-    within what a step of 2e-8 s changes."""
+    within what a step of 2e-8 s changes.
+    """
     size = "fix size all cluster/breakmerge {} 1e-4 2000 K 1 terms cc break no merge no\n"
     values = {}
     for name, contact in (("noted", gran("tangential none")), ("walked", STOCK)):

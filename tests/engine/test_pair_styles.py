@@ -28,7 +28,9 @@ STYLES["hybrid"] = (
 def test_n_cc_is_the_power_of_the_contact_forces(tmp_path, style, newton):
     """Contacts with history behind them; forces and N_cc of one instant (a run of 0 steps)."""
     script = (
-        head(x=0.02, z=0.02, newton=newton) + random_clusters(150) + STYLES[style]
+        head(x=0.02, z=0.02, newton=newton)
+        + random_clusters(150)
+        + STYLES[style]
         + "variable u atom random(-3,3,5)\nvariable w atom random(-3,3,6)\nvelocity all set v_u 0 v_w\n"
         "fix move all nve/sphere\ntimestep 2e-6\nrun 150\n"
         "fix size all cluster/breakmerge 1 1e-4 2000 K 1 terms cc ncc 0.7 break no merge no\nrun 0\n"
@@ -52,16 +54,22 @@ def test_n_cc_is_the_power_of_the_contact_forces(tmp_path, style, newton):
             j = partners[i][0]
             power = row["fx"][i] * (row["vx"][i] - row["vx"][j]) + row["fz"][i] * (row["vz"][i] - row["vz"][j])
             # forces and velocities are printed exactly; the sum rounds, more so where its terms cancel
-            size = np.hypot(row["fx"][i], row["fz"][i]) * np.hypot(row["vx"][i] - row["vx"][j], row["vz"][i] - row["vz"][j])
+            size = np.hypot(row["fx"][i], row["fz"][i]) * np.hypot(
+                row["vx"][i] - row["vx"][j], row["vz"][i] - row["vz"][j]
+            )
             assert abs(row["f_size[5]"][i] - 0.7 * abs(power) / row["mass"][i]) <= 1e-11 * size / row["mass"][i]
             checked += 1
     assert checked >= 10
 
 
 def test_other_pair_styles_are_refused(tmp_path):
-    script = head() + random_clusters(5) + (
-        "pair_style lj/cut 0.002\npair_coeff * * 1.0 1e-3\nfix move all nve\n"
-        "fix size all cluster/breakmerge 1 1e-4 2000 K 1 terms cc\nrun 0\n"
+    script = (
+        head()
+        + random_clusters(5)
+        + (
+            "pair_style lj/cut 0.002\npair_coeff * * 1.0 1e-3\nfix move all nve\n"
+            "fix size all cluster/breakmerge 1 1e-4 2000 K 1 terms cc\nrun 0\n"
+        )
     )
     r = run(tmp_path, script, check=False)
     assert r.code != 0 and "needs a granular pair style (granular or gran/*), but the pair style is lj/cut" in r.output

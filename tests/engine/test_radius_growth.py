@@ -12,15 +12,24 @@ def row_of_pairs() -> tuple[str, float]:
     shift = 0.999 * d / 2
     apart = 1.01 * merged
     text = clusters(
-        (900, (0.015, 0.02 - shift), (0.5, 0.0)), (900, (0.015, 0.02 + shift), (0.5, 0.0)),
-        (900, (0.015 + apart, 0.02 - shift), (0.2, 0.0)), (900, (0.015 + apart, 0.02 + shift), (0.2, 0.0)),
+        (900, (0.015, 0.02 - shift), (0.5, 0.0)),
+        (900, (0.015, 0.02 + shift), (0.5, 0.0)),
+        (900, (0.015 + apart, 0.02 - shift), (0.2, 0.0)),
+        (900, (0.015 + apart, 0.02 + shift), (0.2, 0.0)),
     )
     return text, merged
 
 
 def check(folder, contact):
     text, merged = row_of_pairs()
-    script = head() + text + contact + GROW + "timestep 1e-6\nneigh_modify every 1 delay 0 check yes\nrun 200\n" + write("f_size[1]")
+    script = (
+        head()
+        + text
+        + contact
+        + GROW
+        + "timestep 1e-6\nneigh_modify every 1 delay 0 check yes\nrun 200\n"
+        + write("f_size[1]")
+    )
     row = run(folder, script).dump()
     assert row["f_size[1]"].tolist() == [1800, 1800]
     gap = np.hypot(row["x"][1] - row["x"][0], row["z"][1] - row["z"][0]) - merged

@@ -18,7 +18,13 @@ OWN = scenes.GAS.replace("cell 8 1 8 4e-4 5", "own 4e-4 5")
 
 @pytest.mark.parametrize("np_", [1, 2])
 @pytest.mark.parametrize(
-    "options, gas", [("", scenes.GAS), ("test end", scenes.GAS), ("", OWN), ("refused break up cell nsmf paper grid 4 1 4", scenes.GAS)]
+    "options, gas",
+    [
+        ("", scenes.GAS),
+        ("test end", scenes.GAS),
+        ("", OWN),
+        ("refused break up cell nsmf paper grid 4 1 4", scenes.GAS),
+    ],
 )
 def test_bit_equal_on_the_same_ranks(tmp_path, np_, options, gas):
     whole = cut(tmp_path, np_, options, gas)

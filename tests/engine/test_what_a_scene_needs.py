@@ -44,7 +44,12 @@ def test_fluidization_keeps_a_cluster_whole(tmp_path):
     assert (found["tests"], found["whole_by_mf"], found["whole_by_st"]) == (3, 3, 0)
     assert found["weight"] == pytest.approx(3 * 400 * M_P * G, rel=1e-12)
     # N_smf off: it breaks, and nothing keeps it
-    assert run(tmp_path / "without", scene(clusters((400, (0.02, 0.02), (0, 0))), f"K {k_for(180)!r} terms st")).table()[-1, 3] == 1
+    assert (
+        run(tmp_path / "without", scene(clusters((400, (0.02, 0.02), (0, 0))), f"K {k_for(180)!r} terms st")).table()[
+            -1, 3
+        ]
+        == 1
+    )
 
 
 def approach(speed):
@@ -115,7 +120,10 @@ def test_what_is_off_is_not_looked_at(tmp_path):
     assert needs(run(tmp_path / "granular", scene(rows, "K 1 terms st cc mf ncc 0")))["contact"] == 0.0
     # drag is known to its own fix, without N_st, too; to nobody if no such fix is named
     speed = np.hypot(0.2, 2.0)
-    for name, terms, seen in (("drag", "drag drag umf 0.01", 2 * stokes(diameter(400)) * speed), ("no drag", "umf 0.01", 0.0)):
+    for name, terms, seen in (
+        ("drag", "drag drag umf 0.01", 2 * stokes(diameter(400)) * speed),
+        ("no drag", "umf 0.01", 0.0),
+    ):
         text = scene(rows, "K 1 terms cc mf").replace("drag drag K 1", f"{terms} K 1")
         assert needs(run(tmp_path / name, text))["drag"] == pytest.approx(seen, rel=1e-9), name
 

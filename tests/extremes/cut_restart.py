@@ -32,7 +32,7 @@ def lengths(size: int, count: int, seed: int) -> list[int]:
 
 
 def fault_when_read(folder: Path, name: str, np_: int = 1) -> str:
-    """ "" if the file is refused with a known message."""
+    """Return what went wrong: nothing ("") if the file is refused with a known message."""
     try:
         r = run(folder, scenes.again(name, options=OPTIONS, gas=GAS) + "run 0\n", np_, check=False, timeout=60)
     except subprocess.TimeoutExpired:

@@ -149,7 +149,7 @@ def cut_by_run(folder: Path, setting: Setting, np_: int, cuts: list[int]) -> Run
 
 
 def difference(a: Run, b: Run) -> str:
-    """ "" if both ended with the same state to the last bit."""
+    """Return the difference: nothing ("") if both ended with the same state to the last bit."""
     x, y = a.dump(), b.dump()
     if list(x) != list(y) or len(x["id"]) != len(y["id"]):
         return f"{len(x['id'])} clusters, not {len(y['id'])}"

@@ -31,13 +31,11 @@
 
 using namespace LAMMPS_NS;
 
-namespace
-{
+namespace {
 
 enum Status { FINE, REFUSED, EXCEPTION, NOT_FINITE };
 
-class ForkServer : public Command
-{
+class ForkServer : public Command {
  public:
   using Command::Command;
 
@@ -107,7 +105,10 @@ class ForkServer : public Command
   }
 };
 
-void *create(void *lmp) { return new ForkServer((LAMMPS *) lmp); }
+void *create(void *lmp)
+{
+  return new ForkServer((LAMMPS *) lmp);
+}
 
 }    // namespace
 

@@ -13,7 +13,11 @@ from lammps_run import clusters, head, pair
 # `./run fuzz` says how many; a plain test run takes the same few lines each time
 LINES = int(os.environ.get("CLUSTERDEM_FUZZ_LINES", "0"))
 PROFILE = settings(
-    max_examples=(LINES or 500) // len(COMMANDS), derandomize=LINES == 0, deadline=None, print_blob=True, database=None,
+    max_examples=(LINES or 500) // len(COMMANDS),
+    derandomize=LINES == 0,
+    deadline=None,
+    print_blob=True,
+    database=None,
     suppress_health_check=[HealthCheck.too_slow],
 )
 
@@ -21,8 +25,11 @@ PROFILE = settings(
 SCENE = (
     head()
     + clusters(
-        (300, (0.010, 0.010), (0.0, 1.0)), (300, (0.0108, 0.010), (0.0, 1.0)),
-        (2000, (0.030, 0.010), (0.0, 0.0)), (400, (0.030, 0.030), (0.0, 0.0)), (3, (0.010, 0.030), (0.1, 0.0)),
+        (300, (0.010, 0.010), (0.0, 1.0)),
+        (300, (0.0108, 0.010), (0.0, 1.0)),
+        (2000, (0.030, 0.010), (0.0, 0.0)),
+        (400, (0.030, 0.030), (0.0, 0.0)),
+        (3, (0.010, 0.030), (0.1, 0.0)),
     )
     + pair()
     + "variable u equal 0.5\nvariable w atom 2+x\nvariable bad equal 1/0\nfix move all nve\ntimestep 1e-6\n"
@@ -30,8 +37,12 @@ SCENE = (
 
 # an error found when a run begins names who found it, and a cause that is not of one word
 AT_RUN_TIME = (
-    "Fix drag/cluster drag", "Fix cluster/breakmerge size", "Fix cluster/timestep step", "Fix nve/cluster move",
-    "Pair style gran/cluster", "Variable ",
+    "Fix drag/cluster drag",
+    "Fix cluster/breakmerge size",
+    "Fix cluster/timestep step",
+    "Fix nve/cluster move",
+    "Pair style gran/cluster",
+    "Variable ",
 )
 # numbers are taken at their word: what a gas of 1e300 kg/m3, or a cutoff of as many metres, does is for LAMMPS to say
 ENGINE = ("Lost atoms", "Non-numeric atom coords", "out of range atoms", "Non-numeric box", "Cannot use neighbor bins")

@@ -14,27 +14,22 @@
 #include <limits>
 #include <random>
 
-namespace ClusterDEM
-{
+namespace ClusterDEM {
 
 // the paper's particle, gas and gravity (section 3.2.1)
 inline const ClusterGeometry paper_geometry{100.0e-6, 2000.0, 0.5};
 inline const Gas paper_gas{1.2, 1.53e-5};
 constexpr double gravity = 9.81;
 
-constexpr double EPS = std::numeric_limits<double>::epsilon(); // 2.2e-16, one unit in the last place of 1
+constexpr double EPS = std::numeric_limits<double>::epsilon();    // 2.2e-16, one unit in the last place of 1
 
 // Inputs from a fixed seed. Only the raw 64 bits of the generator are used: they are the same with
 // every standard library, its distributions are not.
-class RandomInputs
-{
+class RandomInputs {
  public:
   explicit RandomInputs(std::uint64_t seed) : bits_(seed) {}
 
-  double uniform(double lo, double hi)
-  {
-    return lo + (hi - lo) * static_cast<double>(bits_() >> 11) * 0x1p-53;
-  }
+  double uniform(double lo, double hi) { return lo + (hi - lo) * static_cast<double>(bits_() >> 11) * 0x1p-53; }
   double log_uniform(double lo, double hi) { return std::exp(uniform(std::log(lo), std::log(hi))); }
   int integer(int lo, int hi)
   {
@@ -55,10 +50,7 @@ class RandomInputs
   }
 
   // a primary particle from 1 um to 5 mm, from aerogel to tungsten, at any voidage that packs
-  ClusterGeometry geometry()
-  {
-    return {log_uniform(1.0e-6, 5.0e-3), log_uniform(1.0, 2.0e4), uniform(0.0, 0.95)};
-  }
+  ClusterGeometry geometry() { return {log_uniform(1.0e-6, 5.0e-3), log_uniform(1.0, 2.0e4), uniform(0.0, 0.95)}; }
   // gas from near vacuum to hundreds of bar
   Gas gas() { return {log_uniform(1.0e-3, 300.0), log_uniform(1.0e-8, 1.0e-2)}; }
 
@@ -75,9 +67,9 @@ inline bool finite(const Vec3 &v)
 inline ::testing::AssertionResult relatively_near(double a, double b, double tolerance)
 {
   if (std::fabs(a - b) <= tolerance * std::fabs(b)) return ::testing::AssertionSuccess();
-  return ::testing::AssertionFailure()
-         << a << " differs from " << b << " by " << (a - b) / b << " of it, allowed " << tolerance;
+  return ::testing::AssertionFailure() << a << " differs from " << b << " by " << (a - b) / b << " of it, allowed "
+                                       << tolerance;
 }
 
-} // namespace ClusterDEM
+}    // namespace ClusterDEM
 #endif

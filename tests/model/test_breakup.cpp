@@ -6,8 +6,7 @@
 
 using namespace ClusterDEM;
 
-namespace
-{
+namespace {
 
 void check(int n, int n_l, int lower)
 {
@@ -20,7 +19,7 @@ void check(int n, int n_l, int lower)
     smallest = std::min(smallest, particles);
     largest = std::max(largest, particles);
   }
-  ASSERT_EQ(sum, n) << n_l << " " << lower; // exact
+  ASSERT_EQ(sum, n) << n_l << " " << lower;    // exact
   ASSERT_GE(plan.pieces(), 1) << n << " " << n_l << " " << lower;
   ASSERT_EQ(plan.largest(), largest) << n << " " << n_l << " " << lower;
   ASSERT_EQ(plan.is_event(), plan.pieces() > 1);
@@ -32,11 +31,11 @@ void check(int n, int n_l, int lower)
   }
 }
 
-} // namespace
+}    // namespace
 
 TEST(Breaks, BeyondTheHysteresisOnly)
 {
-  EXPECT_FALSE(breaks(1.0, 1.0, 0.0)); // d > l, not >=
+  EXPECT_FALSE(breaks(1.0, 1.0, 0.0));    // d > l, not >=
   EXPECT_TRUE(breaks(1.0 + 1.0e-12, 1.0, 0.0));
   EXPECT_FALSE(breaks(1.25, 1.0, 0.26));
   EXPECT_TRUE(breaks(1.27, 1.0, 0.26));
@@ -48,24 +47,24 @@ TEST(Breaks, BeyondTheHysteresisOnly)
 
 TEST(BreakPlan, ByHand)
 {
-  BreakPlan plan = plan_breakup(400, 75, 3); // 5 x 75 + 25
+  BreakPlan plan = plan_breakup(400, 75, 3);    // 5 x 75 + 25
   EXPECT_EQ(plan.pieces(), 6);
   EXPECT_EQ(plan.particles(0), 75);
   EXPECT_EQ(plan.particles(4), 75);
   EXPECT_EQ(plan.particles(5), 25);
   EXPECT_EQ(plan.largest(), 75);
 
-  plan = plan_breakup(400, 100, 3); // no remainder
+  plan = plan_breakup(400, 100, 3);    // no remainder
   EXPECT_EQ(plan.pieces(), 4);
   EXPECT_EQ(plan.particles(3), 100);
 
-  plan = plan_breakup(401, 100, 3); // a remainder of 1 joins a sibling
+  plan = plan_breakup(401, 100, 3);    // a remainder of 1 joins a sibling
   EXPECT_EQ(plan.pieces(), 4);
   EXPECT_EQ(plan.particles(2), 100);
   EXPECT_EQ(plan.particles(3), 101);
   EXPECT_EQ(plan.largest(), 101);
 
-  plan = plan_breakup(403, 100, 3); // a remainder of 3 stands alone
+  plan = plan_breakup(403, 100, 3);    // a remainder of 3 stands alone
   EXPECT_EQ(plan.pieces(), 5);
   EXPECT_EQ(plan.particles(4), 3);
 }
@@ -75,7 +74,7 @@ TEST(BreakPlan, OnePieceIsNoEvent)
   EXPECT_FALSE(plan_breakup(3, 3, 3).is_event());
   EXPECT_FALSE(plan_breakup(400, 400, 3).is_event());
   EXPECT_FALSE(plan_breakup(400, 2000, 3).is_event());
-  EXPECT_FALSE(plan_breakup(4, 3, 3).is_event()); // 3 + 1 folds into 4
+  EXPECT_FALSE(plan_breakup(4, 3, 3).is_event());    // 3 + 1 folds into 4
   EXPECT_FALSE(plan_breakup(5, 3, 3).is_event());
   EXPECT_TRUE(plan_breakup(6, 3, 3).is_event());
   EXPECT_FALSE(plan_breakup(102, 100, 3).is_event());
@@ -85,7 +84,7 @@ TEST(BreakPlan, OnePieceIsNoEvent)
 
 TEST(BreakPlan, TheLargestBreakOfThePaper)
 {
-  const BreakPlan plan = plan_breakup(2000, 3, 3); // 666 x 3 + 2: the 2 fold into the last
+  const BreakPlan plan = plan_breakup(2000, 3, 3);    // 666 x 3 + 2: the 2 fold into the last
   EXPECT_EQ(plan.pieces(), 666);
   EXPECT_EQ(plan.particles(664), 3);
   EXPECT_EQ(plan.particles(665), 5);

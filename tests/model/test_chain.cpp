@@ -18,22 +18,21 @@ TEST(Chain, FiniteAndConservingForAnyInput)
   const Walls no_walls{{-inf, -inf, -inf}, {inf, inf, inf}};
   int broken = 0;
   for (int k = 0; k < 30000; k++) {
-    const ClusterGeometry g = random.geometry(); // 1 um to 5 mm
+    const ClusterGeometry g = random.geometry();    // 1 um to 5 mm
     const Gas gas = random.gas();
     const SizeLimits limits;
     const int n = random.integer(limits.lo, limits.hi);
     const double mass = g.mass(n), d = g.diameter(n);
 
     // gas of 0 to 300 m/s and a fluctuation on it
-    const Vec3 u = random.vector(300.0) +
-                   0.75 * own_fluctuation(1, k, 0, period_index(random.uniform(0.0, 10.0), 0.005));
-    const Vec3 v = random.integer(0, 9) ? random.vector(300.0) : u; // now and then no slip at all
+    const Vec3 u =
+        random.vector(300.0) + 0.75 * own_fluctuation(1, k, 0, period_index(random.uniform(0.0, 10.0), 0.005));
+    const Vec3 v = random.integer(0, 9) ? random.vector(300.0) : u;    // now and then no slip at all
     const Vec3 slip = u - v;
 
     const auto &entry = drag_laws()[random.integer(0, static_cast<int>(drag_laws().size()) - 1)];
     std::vector<double> p;
-    for (const auto &parameter : entry.parameters)
-      p.push_back(random.uniform(0.3, std::min(1.0, parameter.hi)));
+    for (const auto &parameter : entry.parameters) p.push_back(random.uniform(0.3, std::min(1.0, parameter.hi)));
     const auto law = entry.make(p.data());
     const double b = cluster_drag_coefficient(*law, gas, d, g.d_p, n, random.integer(0, 2) * 0.5, norm(slip));
     ASSERT_TRUE(std::isfinite(b) && b >= 0.0) << entry.name;
@@ -54,8 +53,7 @@ TEST(Chain, FiniteAndConservingForAnyInput)
     ASSERT_TRUE(std::isfinite(K));
 
     // half as the powers have it, half with an energy that makes l about as large as the cluster
-    const StableSize stable =
-        stable_size(K, random.coin() ? e_in : K / (d * random.uniform(0.1, 1.2)), g, limits);
+    const StableSize stable = stable_size(K, random.coin() ? e_in : K / (d * random.uniform(0.1, 1.2)), g, limits);
     ASSERT_TRUE(stable.n >= limits.lo && stable.n <= limits.hi);
     ASSERT_TRUE(stable.l >= g.diameter(limits.lo) && stable.l <= g.diameter(limits.hi));
     if (!breaks(d, stable.l, 0.26)) continue;
@@ -66,7 +64,7 @@ TEST(Chain, FiniteAndConservingForAnyInput)
     BreakPlan plan;
     const Placement placed = place_in_stages(plan, n, stable.n, limits.lo, g, lattice, Turn(k, 0, 2), 2.0,
                                              1.6 * g.diameter(limits.hi), {}, no_walls);
-    ASSERT_TRUE(placed.found) << n << " " << stable.n; // alone, any break finds room within the default claim
+    ASSERT_TRUE(placed.found) << n << " " << stable.n;    // alone, any break finds room within the default claim
     int particles = 0;
     double fragments = 0.0;
     for (int piece = 0; piece < plan.pieces(); piece++) {
@@ -80,7 +78,7 @@ TEST(Chain, FiniteAndConservingForAnyInput)
     ASSERT_TRUE(relatively_near(fragments, mass, 666.0 * EPS));
     broken++;
   }
-  EXPECT_GT(broken, 3000); // or the second half was not tested
+  EXPECT_GT(broken, 3000);    // or the second half was not tested
 }
 
 TEST(Chain, FragmentsMergedBackAreTheParent)

@@ -33,15 +33,14 @@ TEST(ClusterGeometry, SolidsFractionOfThePapersBoxes)
   // digits
   const double box = 0.3 * 0.003 * 0.6;
   EXPECT_NEAR(100.0 * 5000 * paper_geometry.mass(400) / 2000.0 / box, 0.194, 0.0005);
-  EXPECT_NEAR(100.0 * 7750 * paper_geometry.mass(400) / 2000.0 / box, 0.300, 0.0007); // 0.3006
+  EXPECT_NEAR(100.0 * 7750 * paper_geometry.mass(400) / 2000.0 / box, 0.300, 0.0007);    // 0.3006
 }
 
 TEST(ClusterGeometry, NominalDiameterIsNotAWholeNumber)
 {
   // "928 um" is 399.59 particles, to two decimals
   EXPECT_NEAR(paper_geometry.particles_in(928.0e-6), 399.59, 0.005);
-  const auto count =
-      paper_geometry.count_from_mass(paper_geometry.mass(paper_geometry.particles_in(928.0e-6)));
+  const auto count = paper_geometry.count_from_mass(paper_geometry.mass(paper_geometry.particles_in(928.0e-6)));
   EXPECT_EQ(count.n, 400);
   EXPECT_NEAR(count.exact, 399.59, 0.005);
   EXPECT_FALSE(count.whole);
@@ -88,8 +87,7 @@ TEST(ClusterGeometry, WholeNumberWithinOneMillionth)
   // either side of the documented 1e-6 per particle of the cluster; 1e-9 is far above rounding
   for (int n : {1, 3, 400, 2000, 100000}) {
     for (double sign : {-1.0, 1.0}) {
-      EXPECT_TRUE(
-          paper_geometry.count_from_mass(paper_geometry.mass(n * (1.0 + sign * (1.0e-6 - 1.0e-9)))).whole);
+      EXPECT_TRUE(paper_geometry.count_from_mass(paper_geometry.mass(n * (1.0 + sign * (1.0e-6 - 1.0e-9)))).whole);
       EXPECT_FALSE(
           paper_geometry.count_from_mass(paper_geometry.mass(n * (1.0 + sign * (1.0e-6 + 1.0e-9)))).whole);
     }
@@ -133,7 +131,7 @@ TEST(SizeLimits, ClampTakesAnyNumber)
   EXPECT_EQ(limits.clamp(0.0), 3);
   EXPECT_EQ(limits.clamp(-1.0e300), 3);
   EXPECT_EQ(limits.clamp(-inf), 3);
-  EXPECT_EQ(limits.clamp(1.0e300), 2000); // far beyond int
+  EXPECT_EQ(limits.clamp(1.0e300), 2000);    // far beyond int
   EXPECT_EQ(limits.clamp(inf), 2000);
   EXPECT_EQ(limits.clamp(std::numeric_limits<double>::quiet_NaN()), 3);
 }

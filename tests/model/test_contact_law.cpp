@@ -154,9 +154,7 @@ TEST(ContactLaw, NoFrictionBeyondCoulombsLimit)
           const Vec3 v{speed, 0.0, 0.0};
           const Vec3 force = law.friction(overlap, f_n, law.damping(MASS), v, s);
           EXPECT_LE(norm(force), 0.33 * std::fabs(f_n) * (1.0 + 1.0e-12));
-          if (direction == FrictionDirection::VELOCITY) {
-            EXPECT_LE(dot(force, v), 0.0);
-          }
+          if (direction == FrictionDirection::VELOCITY) { EXPECT_LE(dot(force, v), 0.0); }
         }
 }
 

@@ -6,8 +6,7 @@
 
 using namespace ClusterDEM;
 
-namespace
-{
+namespace {
 const SizeLimits limits;
 constexpr double K = 0.0266;
 const SizeRule rule{K, 0.26, paper_geometry, limits};
@@ -15,7 +14,7 @@ const int n = 400;
 const double d = paper_geometry.diameter(n);
 // 400 particles break where l < d/1.26: they are two whole stable clusters then
 const double threshold = 1.26 * K / d;
-} // namespace
+}    // namespace
 
 TEST(PowerParts, SharesAndSums)
 {
@@ -26,7 +25,7 @@ TEST(PowerParts, SharesAndSums)
   EXPECT_DOUBLE_EQ(power.e_in_without(PowerParts::ST), -3.0);
   EXPECT_DOUBLE_EQ(power.e_in_without(PowerParts::CC), -7.0);
   EXPECT_DOUBLE_EQ(power.e_in_without(PowerParts::MF), -2.0);
-  EXPECT_DOUBLE_EQ(power.e_in_without(PowerParts::NTERMS), -6.0); // all of E_in*
+  EXPECT_DOUBLE_EQ(power.e_in_without(PowerParts::NTERMS), -6.0);    // all of E_in*
   EXPECT_EQ(PowerParts(0.0, 0.0, 0.0).share(PowerParts::ST), 0.0);
 }
 
@@ -50,7 +49,7 @@ TEST(DecisiveTerms, WhatKeepsAClusterWhole)
 {
   const PowerParts held(1.1 * threshold, 0.0, 0.2 * threshold);
   EXPECT_TRUE(rule.whole_only_by(PowerParts::MF, held, n, d));
-  EXPECT_FALSE(rule.whole_only_by(PowerParts::ST, held, n, d)); // it drives
+  EXPECT_FALSE(rule.whole_only_by(PowerParts::ST, held, n, d));    // it drives
   // the gas slows this one down: N_st < 0
   const PowerParts slowed(-0.3 * threshold, 1.2 * threshold, 0.0);
   EXPECT_TRUE(rule.whole_only_by(PowerParts::ST, slowed, n, d));
@@ -78,7 +77,8 @@ TEST(DecisiveTerms, SameVerdictAsTheCheckItself)
     const double size = paper_geometry.diameter(m);
     const double e_in = random.uniform(-0.5, 6.0) * K / size;
     const StableSize stable = stable_size(K, e_in, paper_geometry, limits);
-    const bool verdict = m > stable.n && breaks(size, stable.l, 0.26) && plan_breakup(m, stable.n, limits.lo).is_event();
+    const bool verdict =
+        m > stable.n && breaks(size, stable.l, 0.26) && plan_breakup(m, stable.n, limits.lo).is_event();
     ASSERT_EQ(rule.breaks(m, size, e_in), verdict) << m << " particles, E_in* " << e_in;
     broke += verdict;
   }

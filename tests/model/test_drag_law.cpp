@@ -6,10 +6,12 @@
 
 using namespace ClusterDEM;
 
-namespace
-{
+namespace {
 
-double cd(const DragLaw &law, double re) { return law.cd_re(re) / re; }
+double cd(const DragLaw &law, double re)
+{
+  return law.cd_re(re) / re;
+}
 
 // every law of the registry with legal parameters, drawn anew
 std::vector<std::unique_ptr<DragLaw>> every_law(RandomInputs &random)
@@ -24,7 +26,7 @@ std::vector<std::unique_ptr<DragLaw>> every_law(RandomInputs &random)
   return laws;
 }
 
-} // namespace
+}    // namespace
 
 // ---- Tran-Cong, Gay & Michaelides ----
 
@@ -47,11 +49,10 @@ TEST(TranCong, EqualsThePrintedFormula)
     const double c = random.uniform(0.4, 1.0), r = random.uniform(0.8, 1.5),
                  re = random.log_uniform(1.0e-3, 1.0e6);
     const double printed = 24.0 / re * r * (1.0 + 0.15 / std::sqrt(c) * std::pow(r * re, 0.687)) +
-                           0.42 * r * r / (std::sqrt(c) * (1.0 + 4.25e4 * std::pow(r * re, -1.16)));
+        0.42 * r * r / (std::sqrt(c) * (1.0 + 4.25e4 * std::pow(r * re, -1.16)));
     // two ways to round a dozen operations, none of which cancels; powers by a logarithm (up to 1.16 ln 1e6 =
     // 16) carry its rounding, 16 EPS
-    ASSERT_TRUE(relatively_near(cd(TranCongDrag(c, r), re), printed, 30.0 * EPS))
-        << c << " " << r << " " << re;
+    ASSERT_TRUE(relatively_near(cd(TranCongDrag(c, r), re), printed, 30.0 * EPS)) << c << " " << r << " " << re;
   }
 }
 
@@ -76,10 +77,10 @@ TEST(TranCong, HighReynoldsLimit)
 TEST(SchillerNaumann, KnownValues)
 {
   const SchillerNaumannDrag law;
-  EXPECT_DOUBLE_EQ(cd(law, 1.0), 27.6); // 24 (1 + 0.15)
+  EXPECT_DOUBLE_EQ(cd(law, 1.0), 27.6);    // 24 (1 + 0.15)
   // 100^0.687 = 23.659197: 0.24 (1 + 0.15 23.659197); seven digits were worked out
   EXPECT_NEAR(cd(law, 100.0), 1.0917311, 1.0e-7);
-  EXPECT_DOUBLE_EQ(cd(law, 1.0e5), 0.44); // Newton's range
+  EXPECT_DOUBLE_EQ(cd(law, 1.0e5), 0.44);    // Newton's range
   EXPECT_DOUBLE_EQ(cd(law, 1000.0), 0.44);
   EXPECT_EQ(law.cd_re(0.0), 24.0);
 }
@@ -100,8 +101,8 @@ TEST(Stokes, ForceIsThreePiMuDV)
     const Gas gas = random.gas();
     const double d = random.log_uniform(1.0e-6, 5.0e-3), slip = random.uniform(0.0, 300.0);
     // five products, each rounds
-    ASSERT_TRUE(relatively_near(drag_coefficient(StokesDrag(), gas, d, slip), 3.0 * PI * gas.rho * gas.nu * d,
-                                8.0 * EPS));
+    ASSERT_TRUE(
+        relatively_near(drag_coefficient(StokesDrag(), gas, d, slip), 3.0 * PI * gas.rho * gas.nu * d, 8.0 * EPS));
   }
 }
 
@@ -115,7 +116,7 @@ TEST(DragForce, EqualsTheDefinitionOfTheDragCoefficient)
     const double d = random.log_uniform(1.0e-6, 5.0e-3), v = random.log_uniform(1.0e-6, 300.0);
     const double definition = cd(law, v * d / gas.nu) * 0.5 * gas.rho * PI / 4.0 * d * d * v * v;
     ASSERT_TRUE(
-        relatively_near(drag_coefficient(law, gas, d, v) * v, definition, 20.0 * EPS)); // a dozen roundings
+        relatively_near(drag_coefficient(law, gas, d, v) * v, definition, 20.0 * EPS));    // a dozen roundings
   }
 }
 
@@ -152,7 +153,7 @@ TEST(WenYu, EqualsTheExchangeCoefficientOfTheLiterature)
         0.75 * cd(SchillerNaumannDrag(), eps * re) * eps * paper_gas.rho * v / d * std::pow(eps, -2.65);
     const double b = drag_coefficient(WenYuDrag(eps), paper_gas, d, v);
     ASSERT_TRUE(
-        relatively_near(b, beta_per_solids * PI / 6.0 * d * d * d, 30.0 * EPS)); // some twenty roundings
+        relatively_near(b, beta_per_solids * PI / 6.0 * d * d * d, 30.0 * EPS));    // some twenty roundings
   }
 }
 
@@ -164,7 +165,7 @@ TEST(DiFelice, OneSphereInClearGasIsDallaValle)
     // two ways to round a square and a root
     EXPECT_TRUE(relatively_near(cd(law, re), dalla_valle * dalla_valle, 10.0 * EPS)) << re;
   }
-  EXPECT_TRUE(relatively_near(law.cd_re(0.0), 23.04, 4.0 * EPS)); // 4.8^2
+  EXPECT_TRUE(relatively_near(law.cd_re(0.0), 23.04, 4.0 * EPS));    // 4.8^2
 }
 
 TEST(DiFelice, ExponentOfTheVoidage)
@@ -174,12 +175,12 @@ TEST(DiFelice, ExponentOfTheVoidage)
   const double eps = 0.6;
   auto beta = [&](double re_eps) {
     const double sphere =
-        DiFeliceDrag(1.0).cd_re(re_eps); // C_D Re_eps; the force scales with it and with eps V
+        DiFeliceDrag(1.0).cd_re(re_eps);    // C_D Re_eps; the force scales with it and with eps V
     return -std::log(DiFeliceDrag(eps).cd_re(re_eps / eps) / (sphere * eps)) / std::log(eps);
   };
-  EXPECT_NEAR(beta(std::pow(10.0, 1.5)), 3.05, 1.0e-13); // rounding of two logarithms
+  EXPECT_NEAR(beta(std::pow(10.0, 1.5)), 3.05, 1.0e-13);    // rounding of two logarithms
   EXPECT_NEAR(beta(1.0), 3.7 - 0.65 * std::exp(-1.125), 1.0e-13);
-  EXPECT_NEAR(beta(1.0e-12), 3.7, 1.0e-13); // exp(-91)
+  EXPECT_NEAR(beta(1.0e-12), 3.7, 1.0e-13);    // exp(-91)
   EXPECT_NEAR(beta(1.0e15), 3.7, 1.0e-13);
   // and the value at rest is the limit, not a branch of its own: beta is 3.7 there, and C_D Re differs by
   // 0.63 sqrt(Re)
@@ -224,8 +225,8 @@ TEST(DragLaws, NeverNegativeNorNotANumber)
   RandomInputs random(7);
   for (int k = 0; k < 5000; k++) {
     for (const auto &law : every_law(random)) {
-      for (double re : {0.0, 5.0e-324, random.log_uniform(1.0e-300, 1.0e300),
-                        random.log_uniform(1.0e-3, 1.0e6), 1.0e300}) {
+      for (double re :
+           {0.0, 5.0e-324, random.log_uniform(1.0e-300, 1.0e300), random.log_uniform(1.0e-3, 1.0e6), 1.0e300}) {
         const double value = law->cd_re(re);
         ASSERT_TRUE(std::isfinite(value) && value >= 0.0) << re << " " << value;
       }
@@ -279,11 +280,8 @@ TEST(Benchmark, TerminalVelocityOfMFiXDEM06)
   const struct {
     int step;
     double v;
-  } published[] = {{1000, -0.01255261},
-                   {5000, -0.04078891},
-                   {10000, -0.05263133},
-                   {20000, -0.05701037},
-                   {35000, -0.05739251}};
+  } published[] = {
+      {1000, -0.01255261}, {5000, -0.04078891}, {10000, -0.05263133}, {20000, -0.05701037}, {35000, -0.05739251}};
 
   // Runge-Kutta of 4th order, steps of 1e-5 s = tau/6000: its error is far below the printed digits
   const double dt = 1.0e-5;
@@ -315,9 +313,9 @@ TEST(Benchmark, ExponentialStepReachesTheSameTerminalVelocity)
   double v = 0.0;
   const double b = drag_coefficient(SchillerNaumannDrag(), gas, g.d_p, 0.4), dt = 1.0;
   const double x = dt * b / g.particle_mass();
-  EXPECT_GT(x, 10.0); // an explicit step would leave at ten times the slip
+  EXPECT_GT(x, 10.0);    // an explicit step would leave at ten times the slip
   v += x * exponential_factor(x) * (0.4 - v);
-  EXPECT_NEAR(v, 0.4, 0.4 * std::exp(-x) + 4.0 * EPS); // the closed form, and rounding
+  EXPECT_NEAR(v, 0.4, 0.4 * std::exp(-x) + 4.0 * EPS);    // the closed form, and rounding
 }
 
 // ---- held_drag ----
@@ -337,8 +335,8 @@ TEST(ExponentialFactor, Limits)
   EXPECT_EQ(exponential_factor(5.0e-324), 1.0);
   // 1 - x/2 + x^2/6: for x = 1e-6 the third term is 2e-13
   EXPECT_NEAR(exponential_factor(1.0e-6), 1.0 - 0.5e-6, 2.0e-13);
-  EXPECT_NEAR(exponential_factor(1.0), 0.63212055882855768, 2.0 * EPS); // 1 - 1/e
-  EXPECT_EQ(exponential_factor(1.0e300), 1.0e-300);                     // 1/x
+  EXPECT_NEAR(exponential_factor(1.0), 0.63212055882855768, 2.0 * EPS);    // 1 - 1/e
+  EXPECT_EQ(exponential_factor(1.0e300), 1.0e-300);                        // 1/x
   EXPECT_EQ(exponential_factor(std::numeric_limits<double>::infinity()), 0.0);
 }
 
@@ -349,7 +347,7 @@ TEST(ExponentialFactor, NeverOvershoots)
     const double x = random.log_uniform(1.0e-300, 1.0e300);
     const double f = exponential_factor(x);
     ASSERT_TRUE(f > 0.0 && f <= 1.0) << x;
-    ASSERT_LE(f * x, 1.0) << x; // the share of the slip that a step takes away; 1 is "reaches the gas"
+    ASSERT_LE(f * x, 1.0) << x;    // the share of the slip that a step takes away; 1 is "reaches the gas"
     // closed form of that share, with the digits that expm1 keeps: three roundings
     ASSERT_TRUE(relatively_near(f * x, -std::expm1(-x), 3.0 * EPS)) << x;
 

@@ -23,7 +23,7 @@ TEST(GasProfile, LinearVelocityIsReproduced)
     for (int node = random.integer(2, 30); node > 0; node--) {
       profile.s.push_back(s);
       profile.u.push_back(at_zero + s * slope);
-      s += random.log_uniform(1.0e-6, 0.1); // narrow and wide gaps
+      s += random.log_uniform(1.0e-6, 0.1);    // narrow and wide gaps
     }
     for (int k = 0; k < 50; k++) {
       const double x = random.uniform(profile.s.front(), profile.s.back());
@@ -57,7 +57,7 @@ TEST(GasProfile, ConstantBeyondItsEnds)
   EXPECT_EQ(profile.at(-1.0e-300), profile.u.front());
   EXPECT_EQ(profile.at(1.0 + EPS), profile.u.back());
   EXPECT_EQ(profile.at(1.0e300), profile.u.back());
-  const GasProfile uniform{{0.5}, {{1.0, 2.0, 3.0}}}; // a single node
+  const GasProfile uniform{{0.5}, {{1.0, 2.0, 3.0}}};    // a single node
   for (double x : {-1.0, 0.5, 2.0}) EXPECT_EQ(uniform.at(x), uniform.u.front());
 }
 
@@ -69,11 +69,10 @@ TEST(PeriodIndex, TimeSummedUpInStepsFallsIntoTheRightPeriod)
   // Summing drifts by up to steps^2 EPS/2 of dt, which must stay below the 1e-6 of a period:
   // where period = dt only the first 50000 steps are summed (3e-7), elsewhere all 300000
   const struct {
-    std::int64_t dt, period; // ns
+    std::int64_t dt, period;    // ns
     std::int64_t summed_steps;
-  } cases[] = {{1000, 5000000, 300000},  {2000, 5000000, 300000}, {4000, 5000000, 300000},
-               {11000, 5000000, 300000}, {333, 100000, 300000},   {1000, 3000, 50000},
-               {1000, 1000, 50000}};
+  } cases[] = {{1000, 5000000, 300000}, {2000, 5000000, 300000}, {4000, 5000000, 300000}, {11000, 5000000, 300000},
+               {333, 100000, 300000},   {1000, 3000, 50000},     {1000, 1000, 50000}};
   for (const auto &c : cases) {
     const double dt = c.dt * 1.0e-9, period = c.period * 1.0e-9;
     double summed = 0.0;
@@ -100,7 +99,7 @@ TEST(PeriodIndex, RoundingRule)
     EXPECT_EQ(period_index(0.005 * (k + 0.5), 0.005), k);
   }
   EXPECT_EQ(period_index(0.0, 0.005), 0);
-  EXPECT_EQ(period_index(-0.001, 0.005), 0); // nothing comes before the first
+  EXPECT_EQ(period_index(-0.001, 0.005), 0);    // nothing comes before the first
 }
 
 TEST(PeriodIndex, ManyPeriods)
@@ -132,7 +131,7 @@ TEST(CellIndex, ByHand)
 
 TEST(CellIndex, WrapsAtBothEnds)
 {
-  EXPECT_EQ(cell_index((0.3) / 0.3, 30), 0); // hi is lo again
+  EXPECT_EQ(cell_index((0.3) / 0.3, 30), 0);    // hi is lo again
   EXPECT_EQ(cell_index((-0.001) / 0.3, 30), 29);
   EXPECT_EQ(cell_index((0.305) / 0.3, 30), 0);
   // so little below lo that the wrapped share rounds to 1: the last cell, not one beyond it
@@ -145,8 +144,7 @@ TEST(CellIndex, EveryImageOfAPointIsInTheSameCell)
 {
   RandomInputs random(41);
   for (int k = 0; k < 50000; k++) {
-    const int n = random.integer(1, 1000), cell = random.integer(0, n - 1),
-              image = random.integer(-1000, 1000);
+    const int n = random.integer(1, 1000), cell = random.integer(0, n - 1), image = random.integer(-1000, 1000);
     const double lo = random.uniform(-10.0, 10.0), length = random.log_uniform(1.0e-3, 10.0);
     // off the cell's faces by 0.01 of a cell; coordinates of up to 1e4 in a box of 1e-3 round by 2e-9 of the
     // box, which is 2e-6 of the smallest cell
@@ -185,8 +183,7 @@ TEST(Fluctuation, PureFunctionOfItsKey)
   // the same keys in another order, after other calls: the same bits
   RandomInputs random(43);
   std::vector<std::array<std::int64_t, 3>> keys(2000);
-  for (auto &key : keys)
-    key = {random.integer(-1000, 1000000), random.integer(0, 100), random.integer(0, 100)};
+  for (auto &key : keys) key = {random.integer(-1000, 1000000), random.integer(0, 100), random.integer(0, 100)};
   std::vector<Vec3> own, cell;
   for (const auto &k : keys) {
     own.push_back(own_fluctuation(12345, k[0], k[1], k[2]));
@@ -227,7 +224,7 @@ TEST(Fluctuation, UniformInMinusOneToOne)
   double sum[3] = {}, square[3] = {}, product[3] = {}, in_a_row = 0.0, last = 0.0;
   std::vector<int> bins(BINS, 0);
   for (int k = 0; k < N; k++) {
-    const Vec3 u = cell_fluctuation(7, k % 900, k / 900); // cells and periods as in a run
+    const Vec3 u = cell_fluctuation(7, k % 900, k / 900);    // cells and periods as in a run
     for (int c = 0; c < 3; c++) {
       ASSERT_GE(u[c], -1.0);
       ASSERT_LE(u[c], 1.0);
@@ -243,9 +240,9 @@ TEST(Fluctuation, UniformInMinusOneToOne)
   for (int c = 0; c < 3; c++) {
     EXPECT_NEAR(sum[c] / N, 0.0, 5.0 * std::sqrt(1.0 / 3.0) / root);
     EXPECT_NEAR(square[c] / N, 1.0 / 3.0, 5.0 * std::sqrt(4.0 / 45.0) / root);
-    EXPECT_NEAR(product[c] / N, 0.0, 5.0 / 3.0 / root); // independent components: variance 1/9
+    EXPECT_NEAR(product[c] / N, 0.0, 5.0 / 3.0 / root);    // independent components: variance 1/9
   }
-  EXPECT_NEAR(in_a_row / N, 0.0, 5.0 / 3.0 / root); // independent neighbours
+  EXPECT_NEAR(in_a_row / N, 0.0, 5.0 / 3.0 / root);    // independent neighbours
   double chi2 = 0.0;
   const double expected = static_cast<double>(N) / BINS;
   for (int count : bins) chi2 += (count - expected) * (count - expected) / expected;

@@ -6,8 +6,7 @@
 
 using namespace ClusterDEM;
 
-namespace
-{
+namespace {
 
 Body random_body(RandomInputs &random)
 {
@@ -23,12 +22,12 @@ long double kinetic(const Body &b)
   return 0.5L * b.mass * v2;
 }
 
-} // namespace
+}    // namespace
 
 TEST(RelativeSlip, ByHand)
 {
   EXPECT_DOUBLE_EQ(relative_slip({0.0, 0.0, 2.0}, {0.0, 0.0, 2.01}),
-                   (2.01 - 2.0) / 2.0); // the slower divides
+                   (2.01 - 2.0) / 2.0);    // the slower divides
   EXPECT_DOUBLE_EQ(relative_slip({0.0, 0.0, 2.0}, {0.0, 0.0, -2.0}), 2.0);
   EXPECT_DOUBLE_EQ(relative_slip({3.0, 0.0, 0.0}, {0.0, 0.0, 4.0}), 5.0 / 3.0);
 }
@@ -47,13 +46,13 @@ TEST(RelativeSlip, SymmetricToTheBit)
   RandomInputs random(50);
   for (int k = 0; k < 50000; k++) {
     const Vec3 a = random.vector(300.0), c = random.vector(300.0);
-    const Vec3 near = a + random.log_uniform(1.0e-16, 1.0e-2) * c; // around the tolerance, too
+    const Vec3 near = a + random.log_uniform(1.0e-16, 1.0e-2) * c;    // around the tolerance, too
     for (const Vec3 &b : {c, near, a}) {
       const double slip = relative_slip(a, b);
       ASSERT_EQ(slip, relative_slip(b, a));
       ASSERT_FALSE(std::isnan(slip));
       ASSERT_GE(slip, 0.0);
-      if (std::isinf(slip)) continue; // one of them at rest
+      if (std::isinf(slip)) continue;    // one of them at rest
       // never below the paper's own |dV|/|V_i|, for either i; a quotient rounds once
       ASSERT_GE(slip * norm(a) * (1.0 + 2.0 * EPS), norm(a - b));
       ASSERT_GE(slip * norm(b) * (1.0 + 2.0 * EPS), norm(a - b));
@@ -65,7 +64,7 @@ TEST(RelativeSlip, ExtremeVelocities)
 {
   RandomInputs random(51);
   for (int k = 0; k < 10000; k++) {
-    const double scale = random.log_uniform(1.0e-140, 1.0e140); // squares stay numbers
+    const double scale = random.log_uniform(1.0e-140, 1.0e140);    // squares stay numbers
     const Vec3 a = scale * random.vector(1.0), b = random.vector(1.0e140);
     const double slip = relative_slip(a, b);
     ASSERT_FALSE(std::isnan(slip));
@@ -75,11 +74,11 @@ TEST(RelativeSlip, ExtremeVelocities)
 
 TEST(FitsTogether, UpToTheStableSize)
 {
-  EXPECT_TRUE(fits_together(1000, 1000, 2000)); // the largest can be reached
+  EXPECT_TRUE(fits_together(1000, 1000, 2000));    // the largest can be reached
   EXPECT_FALSE(fits_together(1000, 1001, 2000));
   EXPECT_TRUE(fits_together(3, 3, 6));
   EXPECT_FALSE(fits_together(3, 3, 5));
-  EXPECT_FALSE(fits_together(2000000000, 2000000000, 2000)); // a sum would leave int
+  EXPECT_FALSE(fits_together(2000000000, 2000000000, 2000));    // a sum would leave int
 }
 
 TEST(Combine, ByHand)
@@ -97,7 +96,7 @@ TEST(Combine, ConservesMassMomentumAndCentreOfMass)
     const Body a = random_body(random), b = random_body(random);
     const Body c = combine(a, b);
     ASSERT_TRUE(finite(c.x) && finite(c.v));
-    ASSERT_EQ(c.mass, a.mass + b.mass); // the one rounding of the sum
+    ASSERT_EQ(c.mass, a.mass + b.mass);    // the one rounding of the sum
     for (int q = 0; q < 3; q++) {
       // each sum has five roundings of terms no larger than these
       const double momentum = a.mass * std::fabs(a.v[q]) + b.mass * std::fabs(b.v[q]);
@@ -125,7 +124,7 @@ TEST(EnergyLost, ByHand)
 {
   // equal masses meeting head on: all of it, 2 x 1/2 x 2 kg x (3 m/s)^2 = 18 J
   EXPECT_DOUBLE_EQ(energy_lost({2.0, {}, {0.0, 0.0, 3.0}}, {2.0, {}, {0.0, 0.0, -3.0}}), 18.0);
-  EXPECT_EQ(energy_lost({2.0, {}, {1.0, 2.0, 3.0}}, {5.0, {}, {1.0, 2.0, 3.0}}), 0.0); // moving alike: none
+  EXPECT_EQ(energy_lost({2.0, {}, {1.0, 2.0, 3.0}}, {5.0, {}, {1.0, 2.0, 3.0}}), 0.0);    // moving alike: none
 }
 
 TEST(EnergyLost, EqualsTheKineticDifference)
@@ -139,16 +138,15 @@ TEST(EnergyLost, EqualsTheKineticDifference)
     const long double before = kinetic(a) + kinetic(b);
     const long double after = kinetic(combine(a, b));
     // the velocity of the merged body is rounded some four times, which counts twice in its energy
-    ASSERT_LE(std::fabs(static_cast<double>(before - after - lost)),
-              16.0 * EPS * static_cast<double>(before));
+    ASSERT_LE(std::fabs(static_cast<double>(before - after - lost)), 16.0 * EPS * static_cast<double>(before));
   }
 }
 
 TEST(OverlapEnergy, ByHand)
 {
-  EXPECT_DOUBLE_EQ(overlap_energy(10.0, 1.0e-4), 5.0e-8); // 1/2 10 N/m (100 um)^2
+  EXPECT_DOUBLE_EQ(overlap_energy(10.0, 1.0e-4), 5.0e-8);    // 1/2 10 N/m (100 um)^2
   EXPECT_EQ(overlap_energy(10.0, 0.0), 0.0);
-  EXPECT_EQ(overlap_energy(10.0, -1.0e-4), 0.0); // apart
+  EXPECT_EQ(overlap_energy(10.0, -1.0e-4), 0.0);    // apart
 }
 
 TEST(MergedSpin, KeepsTheSpinAndAddsNoEnergy)
@@ -159,7 +157,7 @@ TEST(MergedSpin, KeepsTheSpinAndAddsNoEnergy)
     const int n[2] = {random.integer(3, 2000), random.integer(3, 2000)};
     Spinning s[2];
     for (int m = 0; m < 2; m++) s[m] = {g.mass(n[m]), 0.5 * g.diameter(n[m]), random.vector(1.0e4)};
-    if (k % 2) s[1].omega = s[0].omega; // where a mean of the velocities adds most, 59 % for equal clusters
+    if (k % 2) s[1].omega = s[0].omega;    // where a mean of the velocities adds most, 59 % for equal clusters
     const Spinning merged{s[0].mass + s[1].mass, 0.5 * g.diameter(n[0] + n[1]),
                           merged_spin(s[0], s[1], 0.5 * g.diameter(n[0] + n[1]))};
     double before = 0.0, scale = 0.0;

@@ -11,8 +11,7 @@
 
 using namespace ClusterDEM;
 
-namespace
-{
+namespace {
 
 const double inf = std::numeric_limits<double>::infinity();
 const Walls no_walls{{-inf, -inf, -inf}, {inf, inf, inf}};
@@ -23,8 +22,8 @@ double radius_of(const ClusterGeometry &g, const BreakPlan &plan, int piece)
 }
 
 // everything that a placement promises
-void check(const Placement &placed, const BreakPlan &plan, const ClusterGeometry &g, double spacing,
-           double claim, const std::vector<Obstacle> &obstacles, const Walls &walls, bool planar)
+void check(const Placement &placed, const BreakPlan &plan, const ClusterGeometry &g, double spacing, double claim,
+           const std::vector<Obstacle> &obstacles, const Walls &walls, bool planar)
 {
   ASSERT_EQ(static_cast<int>(placed.centres.size()), plan.pieces());
   const double step = std::max(spacing * g.diameter(plan.n), g.diameter(plan.largest()));
@@ -46,17 +45,17 @@ void check(const Placement &placed, const BreakPlan &plan, const ClusterGeometry
       ASSERT_GE(p[k] - r, walls.lo[k]);
       ASSERT_LE(p[k] + r, walls.hi[k]);
     }
-    if (planar) { ASSERT_EQ(p[1], 0.0); } // not moved off the plane by a bit
+    if (planar) { ASSERT_EQ(p[1], 0.0); }    // not moved off the plane by a bit
     reach = std::max(reach, norm(p) + r);
     moment = moment + static_cast<double>(plan.particles(i)) * p;
     particles += plan.particles(i);
   }
   ASSERT_EQ(placed.reach, reach);
   ASSERT_LE(placed.reach, claim);
-  ASSERT_LE(norm(moment) / particles, 1.0e-12 * step); // the centre of mass is the parent's
+  ASSERT_LE(norm(moment) / particles, 1.0e-12 * step);    // the centre of mass is the parent's
 }
 
-} // namespace
+}    // namespace
 
 // ---- Lattice ----
 
@@ -100,10 +99,9 @@ TEST(Lattice, UnitSpacingAndFixedOrder)
     double nearest = inf;
     for (std::size_t i = 0; i < lattice.size(); i++) {
       ASSERT_EQ(lattice.site(i), again.site(i));
-      for (std::size_t j = 0; j < i; j++)
-        nearest = std::min(nearest, norm(lattice.site(i) - lattice.site(j)));
+      for (std::size_t j = 0; j < i; j++) nearest = std::min(nearest, norm(lattice.site(i) - lattice.site(j)));
     }
-    EXPECT_NEAR(nearest, 1.0, 1.0e-14); // coordinates up to 4 round
+    EXPECT_NEAR(nearest, 1.0, 1.0e-14);    // coordinates up to 4 round
   }
 }
 
@@ -164,10 +162,10 @@ TEST(Turn, KeepsDistancesAndTheAxis)
 {
   RandomInputs random(60);
   for (int k = 0; k < 10000; k++) {
-    const Turn turn(static_cast<std::int64_t>(random.word() >> 1), 0, 2); // any tag of 63 bits
+    const Turn turn(static_cast<std::int64_t>(random.word() >> 1), 0, 2);    // any tag of 63 bits
     const Vec3 p = random.vector(1.0), q = turn(p);
     ASSERT_EQ(q[1], p[1]);
-    ASSERT_NEAR(norm(q), norm(p), 8.0 * EPS); // |p| <= sqrt 3; sine and cosine round
+    ASSERT_NEAR(norm(q), norm(p), 8.0 * EPS);    // |p| <= sqrt 3; sine and cosine round
     // a rotation, not a mirror: the area between a vector and its image keeps its sign
     const Vec3 x = turn({1.0, 0.0, 0.0}), z = turn({0.0, 0.0, 1.0});
     ASSERT_NEAR(x[0] * z[2] - x[2] * z[0], 1.0, 8.0 * EPS);
@@ -219,7 +217,7 @@ TEST(PlaceFragments, SevenAndThirteenEqualPiecesFillTheFirstShell)
         place_fragments(plan, paper_geometry, lattice, Turn(5, 0, planar ? 2 : 1), 2.0, 1.0, {}, no_walls);
     ASSERT_TRUE(placed.found);
     EXPECT_TRUE(relatively_near(placed.reach, 2.5 * d, 16.0 * EPS));
-    EXPECT_LE(norm(placed.centres[0]), 1.0e-14 * d); // rounding of the mean of a symmetric shell
+    EXPECT_LE(norm(placed.centres[0]), 1.0e-14 * d);    // rounding of the mean of a symmetric shell
   }
 }
 
@@ -230,7 +228,7 @@ TEST(ReachOfBreak, ByHand)
   const double d = paper_geometry.diameter(100);
   const double alone = 2.0 * (std::sqrt(1.1028) + 1.0) + 0.5;
   EXPECT_TRUE(relatively_near(reach_of_break(plan, paper_geometry, 2.0, 1.0), 2.0 * alone * d, 16.0 * EPS));
-  EXPECT_EQ(reach_of_break(plan, paper_geometry, 2.0, 3.0 * d), 3.0 * d); // never beyond the claim
+  EXPECT_EQ(reach_of_break(plan, paper_geometry, 2.0, 3.0 * d), 3.0 * d);    // never beyond the claim
   // the larger piece counts: 202 particles are one piece of 100 and one of 102
   const BreakPlan folded = plan_breakup(202, 100, 3);
   const BreakPlan equal = plan_breakup(204, 102, 3);
@@ -249,7 +247,7 @@ TEST(ReachOfBreak, HoldsTheLatticeOfAnyPlan)
       const Placement placed =
           place_fragments(plan, paper_geometry, lattice, Turn(n, 0, 2), 2.0, reach, {}, no_walls);
       ASSERT_TRUE(placed.found) << n << " " << n_l;
-      ASSERT_LT(placed.reach, 0.75 * reach) << n << " " << n_l; // room left to step aside
+      ASSERT_LT(placed.reach, 0.75 * reach) << n << " " << n_l;    // room left to step aside
     }
 }
 
@@ -288,18 +286,16 @@ TEST(PlaceFragments, AnyBreakAmongAnyNeighbours)
       if (planar) x[1] = 0.0;
       const double length = norm(x);
       if (length == 0.0) continue;
-      const double away =
-          random.integer(0, 9) ? parent + r + random.uniform(0.0, 4.0) * parent : random.uniform(0.0, parent);
+      const double away = random.integer(0, 9) ? parent + r + random.uniform(0.0, 4.0) * parent
+                                               : random.uniform(0.0, parent);
       obstacles.push_back({(away / length) * x, r});
     }
     Walls walls = no_walls;
     if (random.integer(0, 3) == 0) {
       const int axis = planar ? 2 * random.integer(0, 1) : random.integer(0, 2);
       (random.coin() ? walls.hi[axis] : walls.lo[axis]) = 0.0;
-      if (walls.hi[axis] == 0.0)
-        walls.hi[axis] = parent * random.uniform(1.0, 3.0);
-      else
-        walls.lo[axis] = -parent * random.uniform(1.0, 3.0);
+      if (walls.hi[axis] == 0.0) walls.hi[axis] = parent * random.uniform(1.0, 3.0);
+      else walls.lo[axis] = -parent * random.uniform(1.0, 3.0);
     }
     const Turn turn(random.integer(1, 1000000), 0, planar ? 2 : 1);
     const Lattices &lattice = planar ? plane : space;
@@ -336,8 +332,7 @@ TEST(PlaceFragments, WithoutNeighboursNothingIsShifted)
   for (int k = 0; k < 500; k++) {
     const int n = random.integer(6, 2000);
     const BreakPlan plan = plan_breakup(n, random.integer(3, n / 2), 3);
-    const Placement placed =
-        place_fragments(plan, paper_geometry, lattice, Turn(k, 0, 2), 2.0, 1.0, {}, no_walls);
+    const Placement placed = place_fragments(plan, paper_geometry, lattice, Turn(k, 0, 2), 2.0, 1.0, {}, no_walls);
     ASSERT_TRUE(placed.found);
     ASSERT_FALSE(placed.shifted);
     check(placed, plan, paper_geometry, 2.0, 1.0, {}, no_walls, true);
@@ -356,8 +351,7 @@ TEST(PlaceFragments, NoRoomIsNotFound)
   // a claim below the parent, a neighbour over everything, walls closer than a piece, a lattice too small
   EXPECT_FALSE(place_fragments(plan, paper_geometry, lattice, turn, 2.0, 0.5e-3, {}, no_walls).found);
   EXPECT_FALSE(
-      place_fragments(plan, paper_geometry, lattice, turn, 2.0, 5.0e-3, {{{0.0, 0.0, 0.0}, 1.0}}, no_walls)
-          .found);
+      place_fragments(plan, paper_geometry, lattice, turn, 2.0, 5.0e-3, {{{0.0, 0.0, 0.0}, 1.0}}, no_walls).found);
   EXPECT_FALSE(place_fragments(plan, paper_geometry, lattice, turn, 2.0, 5.0e-3, {},
                                {{-1.0e-4, -inf, -inf}, {1.0e-4, inf, inf}})
                    .found);
@@ -438,8 +432,8 @@ TEST(PlaceInStages, TheLargestBreakInASmallClaim)
 {
   // 2000 into threes wants 4.9 mm: within 2.5 mm it comes apart in fewer, coarser ones
   BreakPlan plan;
-  const Placement placed = place_in_stages(plan, 2000, 3, 3, paper_geometry, Lattices(0, 2, 16.0),
-                                           Turn(1, 0, 2), 2.0, 2.54e-3, {}, no_walls);
+  const Placement placed = place_in_stages(plan, 2000, 3, 3, paper_geometry, Lattices(0, 2, 16.0), Turn(1, 0, 2),
+                                           2.0, 2.54e-3, {}, no_walls);
   ASSERT_TRUE(placed.found);
   EXPECT_GT(plan.n, 3);
   check(placed, plan, paper_geometry, 2.0, 2.54e-3, {}, no_walls, true);
@@ -462,10 +456,10 @@ TEST(PlaceInStages, AloneEveryBreakFindsRoomWithinTheDefaultClaim)
 TEST(PlaceInStages, NothingToBreak)
 {
   const Lattices lattice(0, 2, 5.0);
-  for (int n_l : {0, 5, 6, 2000}) { // no size given; a remainder that folds; whole; larger
+  for (int n_l : {0, 5, 6, 2000}) {    // no size given; a remainder that folds; whole; larger
     BreakPlan plan;
-    EXPECT_FALSE(place_in_stages(plan, n_l == 5 ? 7 : 6, n_l, 3, paper_geometry, lattice, Turn(1, 0, 2), 2.0,
-                                 1.0, {}, no_walls)
+    EXPECT_FALSE(place_in_stages(plan, n_l == 5 ? 7 : 6, n_l, 3, paper_geometry, lattice, Turn(1, 0, 2), 2.0, 1.0,
+                                 {}, no_walls)
                      .found)
         << n_l;
     EXPECT_FALSE(plan.is_event()) << n_l;
@@ -516,9 +510,8 @@ TEST(YieldsTo, ThoseThatProceedNeverOverlap)
     for (int k = n - 1; k > 0; k--) std::swap(tags[k], tags[random.integer(0, k)]);
     std::vector<Claim> claims;
     for (int k = 0; k < n; k++)
-      claims.push_back({{random.uniform(0.0, 10.0), 0.0, random.uniform(0.0, 10.0)},
-                        random.log_uniform(0.05, 1.0),
-                        tags[k]});
+      claims.push_back(
+          {{random.uniform(0.0, 10.0), 0.0, random.uniform(0.0, 10.0)}, random.log_uniform(0.05, 1.0), tags[k]});
 
     std::vector<bool> proceeds(n, true);
     for (int i = 0; i < n; i++)
@@ -534,7 +527,7 @@ TEST(YieldsTo, ThoseThatProceedNeverOverlap)
     std::int64_t lowest = claims[0].tag;
     for (const Claim &c : claims) lowest = std::min(lowest, c.tag);
     for (int i = 0; i < n; i++) {
-      if (claims[i].tag == lowest) { ASSERT_TRUE(proceeds[i]); } // something always happens
+      if (claims[i].tag == lowest) { ASSERT_TRUE(proceeds[i]); }    // something always happens
       (proceeds[i] ? proceeding : yielding)++;
       for (int j = 0; j < i && proceeds[i]; j++)
         if (proceeds[j]) {

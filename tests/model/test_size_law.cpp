@@ -6,11 +6,10 @@
 
 using namespace ClusterDEM;
 
-namespace
-{
+namespace {
 const SizeLimits limits;
 const double d_lo = paper_geometry.diameter(3), d_hi = paper_geometry.diameter(2000);
-} // namespace
+}    // namespace
 
 TEST(SizeLaw, DefaultReadingsAreTheFirst)
 {
@@ -53,13 +52,13 @@ TEST(WenYuUmf, LimitsOfSmallAndLargeParticles)
                               0.0408 * archimedes(d) / 67.4, 1.0e-5));
   d = 1.0;
   EXPECT_TRUE(relatively_near(umf_wen_yu(d, 2000.0, paper_gas, gravity) * d / paper_gas.nu,
-                              std::sqrt(0.0408 * archimedes(d)) - 33.7, 1.0e-6)); // (33.7/Re)^2/2, Re = 5e4
+                              std::sqrt(0.0408 * archimedes(d)) - 33.7, 1.0e-6));    // (33.7/Re)^2/2, Re = 5e4
 }
 
 TEST(WenYuUmf, NothingToFluidize)
 {
   EXPECT_EQ(umf_wen_yu(100.0e-6, 1.2, paper_gas, gravity), 0.0);
-  EXPECT_EQ(umf_wen_yu(100.0e-6, 0.5, paper_gas, gravity), 0.0); // lighter than the gas
+  EXPECT_EQ(umf_wen_yu(100.0e-6, 0.5, paper_gas, gravity), 0.0);    // lighter than the gas
   EXPECT_EQ(umf_wen_yu(100.0e-6, 2000.0, paper_gas, 0.0), 0.0);
 }
 
@@ -84,7 +83,7 @@ TEST(Nst, KeepsItsSign)
 TEST(Ncc, ByHand)
 {
   EXPECT_DOUBLE_EQ(n_cc(3.0e-6, 2.0e-7, 1.0), 15.0);
-  EXPECT_DOUBLE_EQ(n_cc(-3.0e-6, 2.0e-7, 1.0), 15.0); // the magnitude of the sum
+  EXPECT_DOUBLE_EQ(n_cc(-3.0e-6, 2.0e-7, 1.0), 15.0);    // the magnitude of the sum
   EXPECT_DOUBLE_EQ(n_cc(-3.0e-6, 2.0e-7, 0.1), 1.5);
   EXPECT_EQ(n_cc(3.0e-6, 2.0e-7, 0.0), 0.0);
 }
@@ -105,8 +104,7 @@ TEST(KEmms, ByHand)
 {
   // 100 um [0.03/0.0003 - (0.00646 + 0.5 0.03/0.5)] 9.81 = 1e-4 (100 - 0.03646) 9.81; 1 - 0.9997 keeps 12
   // digits
-  EXPECT_TRUE(
-      relatively_near(k_emms(100.0e-6, 0.03, 0.00646, 0.5, gravity), 1.0e-4 * 99.96354 * 9.81, 1.0e-11));
+  EXPECT_TRUE(relatively_near(k_emms(100.0e-6, 0.03, 0.00646, 0.5, gravity), 1.0e-4 * 99.96354 * 9.81, 1.0e-11));
 }
 
 TEST(KEmms, RederivedFromItsTwoConditions)
@@ -153,7 +151,7 @@ TEST(StableSize, LimitsOfTheSize)
 {
   EXPECT_EQ(stable_size(0.0266, 1.0e300, paper_geometry, limits).n, 3);
   EXPECT_EQ(stable_size(0.0266, 1.0e300, paper_geometry, limits).l, d_lo);
-  EXPECT_EQ(stable_size(0.0266, 5.0e-324, paper_geometry, limits).n, 2000); // K/E overflows
+  EXPECT_EQ(stable_size(0.0266, 5.0e-324, paper_geometry, limits).n, 2000);    // K/E overflows
   EXPECT_EQ(stable_size(0.0266, 5.0e-324, paper_geometry, limits).l, d_hi);
   EXPECT_EQ(stable_size(0.0, 1.0, paper_geometry, limits).n, 3);
   EXPECT_EQ(stable_size(0.0266, 50.0, paper_geometry, {100, 200}).n, 100);
@@ -168,7 +166,7 @@ TEST(StableSize, ADiameterMadeFromNGivesNBack)
     for (double e : {1.0, 3.0, 0.1, random.log_uniform(1.0e-6, 1.0e6), random.log_uniform(1.0e-6, 1.0e6)}) {
       const StableSize s = stable_size(d * e, e, paper_geometry, limits);
       ASSERT_EQ(s.n, n) << e;
-      ASSERT_TRUE(relatively_near(s.l, d, 2.0 * EPS)) << e; // one product, one quotient
+      ASSERT_TRUE(relatively_near(s.l, d, 2.0 * EPS)) << e;    // one product, one quotient
     }
     // but a diameter 1e-11 smaller, far beyond rounding, holds one particle less
     if (n > 3) { ASSERT_EQ(stable_size(d * (1.0 - 1.0e-11), 1.0, paper_geometry, limits).n, n - 1); }

@@ -23,10 +23,10 @@ TEST(StepControl, TimeToOverlap)
 
 TEST(StepControl, PassageFindsTheNearestPoint)
 {
-  EXPECT_DOUBLE_EQ(passage({1.0, 0.0, 0.5}, {-4.0, 0.0, 0.0}, 10.0).closest, 0.5);    // on the way
-  EXPECT_DOUBLE_EQ(passage({1.0, 0.0, 0.0}, {-4.0, 0.0, 0.0}, 10.0).closest, 0.0);    // through the centre
-  EXPECT_DOUBLE_EQ(passage({1.0, 0.0, 0.0}, {-4.0, 0.0, 0.0}, 0.125).closest, 0.5);   // at its end
-  EXPECT_DOUBLE_EQ(passage({1.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, 10.0).closest, 1.0);     // at its start
+  EXPECT_DOUBLE_EQ(passage({1.0, 0.0, 0.5}, {-4.0, 0.0, 0.0}, 10.0).closest, 0.5);     // on the way
+  EXPECT_DOUBLE_EQ(passage({1.0, 0.0, 0.0}, {-4.0, 0.0, 0.0}, 10.0).closest, 0.0);     // through the centre
+  EXPECT_DOUBLE_EQ(passage({1.0, 0.0, 0.0}, {-4.0, 0.0, 0.0}, 0.125).closest, 0.5);    // at its end
+  EXPECT_DOUBLE_EQ(passage({1.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, 10.0).closest, 1.0);      // at its start
   EXPECT_DOUBLE_EQ(passage({1.0, 0.0, 0.0}, {-4.0, 3.0, 0.0}, 0.0).closing, 4.0);
   EXPECT_DOUBLE_EQ(passage({2.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 1.0).closest, 2.0);
   EXPECT_DOUBLE_EQ(passage({0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, 1.0).closing, 0.0);

@@ -40,8 +40,13 @@ def page(tmp_path_factory):
 
     folder = tmp_path_factory.mktemp("run")
     write_run(folder, 6, 300)
-    needs = [f"{100 * i} {6 * i} {0.5 * i} {3.5 * i} {10 * i} {0.04 * i} 0 {25 * i} 0 {0.3 * i} {2 * i} {0.001 * i} {4 * i}" for i in range(6)]
-    rows = "".join(f"{i} {i / 100} {300 + i} 7 {10 * i} {i} {30 * i} 0 1e-9 0 1e-4 2e-4 3e-4 {needs[i]}\n" for i in range(6))
+    needs = [
+        f"{100 * i} {6 * i} {0.5 * i} {3.5 * i} {10 * i} {0.04 * i} 0 {25 * i} 0 {0.3 * i} {2 * i} {0.001 * i} {4 * i}"
+        for i in range(6)
+    ]
+    rows = "".join(
+        f"{i} {i / 100} {300 + i} 7 {10 * i} {i} {30 * i} 0 1e-9 0 1e-4 2e-4 3e-4 {needs[i]}\n" for i in range(6)
+    )
     (folder / "case1.N.txt").write_text(
         "# case1, reading A, seed 4711 <b>&\n# step time clusters particles breakups merges born deferred E_merge E_birth d_min d_mean d_max tests share_st "
         "share_cc share_mf breakups_by_st breakups_by_cc whole_by_st whole_by_mf merges_by_st merges_by_mf F_drag F_contact weight\n"
@@ -81,19 +86,33 @@ def test_one_file_with_everything_inside(page):
 
 
 def test_needs_of_older_tables_and_quiet_runs():
-    names = "breakups merges born tests share_st share_cc share_mf breakups_by_st breakups_by_cc whole_by_st whole_by_mf "
+    names = (
+        "breakups merges born tests share_st share_cc share_mf breakups_by_st breakups_by_cc whole_by_st whole_by_mf "
+    )
     names += "merges_by_st merges_by_mf F_drag F_contact weight"
     quiet = {name: [0.0] for name in names.split()}
     assert needs_of({"time": [0.0], "breakups": [3.0], "merges": [1.0], "born": [6.0]}) is None  # no such columns
     assert needs_of(quiet) is None  # no check yet
     said = " ".join(statements(needs_of(quiet | {"weight": [2.0], "tests": [5.0]})))
     assert "No cluster broke." in said and "Nothing merged" in said and "Contact forces were zero" in said
-    sheared = {"weight": [1.0], "tests": [900.0], "breakups": [10.0], "born": [30.0], "share_cc": [6.0], "share_st": [4.0]}
-    said = " ".join(statements(needs_of(quiet | sheared | {"breakups_by_cc": [5.0], "merges": [4.0], "F_contact": [3.0]})))
+    sheared = {
+        "weight": [1.0],
+        "tests": [900.0],
+        "breakups": [10.0],
+        "born": [30.0],
+        "share_cc": [6.0],
+        "share_st": [4.0],
+    }
+    said = " ".join(
+        statements(needs_of(quiet | sheared | {"breakups_by_cc": [5.0], "merges": [4.0], "F_contact": [3.0]}))
+    )
     assert "N_cc decided 50 % of the breakups, and is 60 % of the power behind them: needed." in said
     assert "Merges took back 20 % of the clusters that breakups made (4 merges): needed." in said
     said = " ".join(statements(needs_of(quiet | sheared | {"share_cc": [0.0], "merges": [0.1]})))
-    assert "N_cc decided none of the breakups, and is none of the power behind them: this run could do without (-var ncc 0)." in said
+    assert (
+        "N_cc decided none of the breakups, and is none of the power behind them: this run could do without (-var ncc 0)."
+        in said
+    )
 
 
 @pytest.mark.skipif(CHROMIUM is None, reason="needs chromium")

@@ -76,22 +76,33 @@ def main(folder: Path) -> None:
     judged = [row for rows in records.values() for row in rows if row["tolerance"] is not None]
     passed = sum(row["passed"] for row in judged)
     text = [
-        "# Verification", "",
+        "# Verification",
+        "",
         "Analytic solutions and published data beside what the engine gives, through the stock styles and",
         "through this plugin's. `./run verify` runs every case, redraws its figure, and writes this file;",
         "`./run test` runs the same tests in their short form. Each case's folder says what it is, where its",
-        "reference comes from, and why its tolerance is what it is.", "",
-        f"{date.today():%d %b %Y}, `./run verify`, {versions()}: {passed} of {len(judged)} quantities pass.", "",
+        "reference comes from, and why its tolerance is what it is.",
+        "",
+        f"{date.today():%d %b %Y}, `./run verify`, {versions()}: {passed} of {len(judged)} quantities pass.",
+        "",
         "*told*: measured beside a reference of another model or an experiment, not judged. Errors are relative",
-        "where the tolerance says *rel*, and absolute where it says *abs*.", "",
-        "| case | | |", "| --- | --- | --- |",
+        "where the tolerance says *rel*, and absolute where it says *abs*.",
+        "",
+        "| case | | |",
+        "| --- | --- | --- |",
     ]
     for name in cases:
         title = (HERE / name / "README.md").read_text().splitlines()[0].lstrip("# ")
         text.append(f"| [{name}](#{name}) | [{title}]({name}/README.md) | ![{name}]({name}/figure.png) |")
     for name, rows in records.items():
-        text += ["", f"## {name}", "", "| quantity | reference | measured | error | tolerance | |",
-                 "| --- | ---: | ---: | ---: | ---: | --- |", *map(line, rows)]
+        text += [
+            "",
+            f"## {name}",
+            "",
+            "| quantity | reference | measured | error | tolerance | |",
+            "| --- | ---: | ---: | ---: | ---: | --- |",
+            *map(line, rows),
+        ]
         write_measured(HERE / name / "README.md", summary(name, rows))
     (HERE / "README.md").write_text("\n".join(text) + "\n")
     print(f"{passed} of {len(judged)} quantities within their tolerance: tests/verification/README.md")

@@ -19,8 +19,14 @@ import matplotlib.pyplot as plt  # noqa: E402  (after the choice of the backend)
 FULL = bool(os.environ.get("CLUSTERDEM_VERIFY"))
 
 STYLE = {
-    "figure.dpi": 100, "figure.constrained_layout.use": True, "font.size": 9, "axes.grid": True,
-    "grid.alpha": 0.3, "lines.linewidth": 1.2, "lines.markersize": 4, "legend.frameon": False,
+    "figure.dpi": 100,
+    "figure.constrained_layout.use": True,
+    "font.size": 9,
+    "axes.grid": True,
+    "grid.alpha": 0.3,
+    "lines.linewidth": 1.2,
+    "lines.markersize": 4,
+    "legend.frameon": False,
 }
 
 
@@ -49,8 +55,9 @@ class VerificationCase:
         name = "-".join(str(value).replace("/", "_") for value in variables.values()) or "default"
         return run_file(self.scratch / name, ["-in", str(script), "-log", "log.lammps"], **variables)
 
-    def check(self, quantity: str, reference: float, measured: float, *, rel: float | None = None,
-              abs: float | None = None) -> None:
+    def check(
+        self, quantity: str, reference: float, measured: float, *, rel: float | None = None, abs: float | None = None
+    ) -> None:
         """Record the row and fail unless measured is within rel (of the reference) or abs."""
         assert (rel is None) != (abs is None), "one tolerance, relative or absolute"
         row = self._row(quantity, reference, measured, rel if abs is None else abs, abs is None)
@@ -85,4 +92,3 @@ class VerificationCase:
 
 # The contact models that a linear spring-dashpot case goes through.
 CONTACTS = ["granular", "gran/cluster"]
-

@@ -333,7 +333,12 @@ def _ledger(run: RunFolder, found: Gathered[Summary]) -> str:
                 f"Elastic energy put in by births: {energy:.4g} J ({abs(energy) / kinetic:.1e} of the kinetic energy at the end)."
             )
     note = "Gas and gravity change momentum and kinetic energy; mass and particles must stay."
-    return "<h2>Conservation ledger</h2>\n" + html.bullets(said) + _table_by_frame(found, names, cells) + html.paragraph(note, "note")
+    return (
+        "<h2>Conservation ledger</h2>\n"
+        + html.bullets(said)
+        + _table_by_frame(found, names, cells)
+        + html.paragraph(note, "note")
+    )
 
 
 def _engine(log: EngineLog) -> str:

@@ -5,7 +5,10 @@
 
 namespace ClusterDEM {
 
-inline bool breaks(double d, double l, double hysteresis) { return d > (1.0 + hysteresis) * l; }
+inline bool breaks(double d, double l, double hysteresis)
+{
+  return d > (1.0 + hysteresis) * l;
+}
 
 // `whole` pieces of `n` particles, then, unless 0, one last piece of `last` particles
 struct BreakPlan {

@@ -24,13 +24,22 @@ inline double damping_ratio(double e)
 }
 
 // delta_max/delta_n = mu (2 - nu)/(2 (1 - nu)) of Eq. (4)
-inline double slip_ratio_poisson(double mu, double nu) { return mu * (2.0 - nu) / (2.0 * (1.0 - nu)); }
+inline double slip_ratio_poisson(double mu, double nu)
+{
+  return mu * (2.0 - nu) / (2.0 * (1.0 - nu));
+}
 
 // the same from a tangential stiffness: delta_max = 1.5 mu F_n/k_t (Hertz-Mindlin), F_n = k_n delta_n
-inline double slip_ratio_stiffness(double mu, double k_n, double k_t) { return 1.5 * mu * k_n / k_t; }
+inline double slip_ratio_stiffness(double mu, double k_n, double k_t)
+{
+  return 1.5 * mu * k_n / k_t;
+}
 
 // linear tangential spring that goes with k_n (Mindlin): k_t/k_n = 2 (1 - nu)/(2 - nu)
-inline double stiffness_ratio(double nu) { return 2.0 * (1.0 - nu) / (2.0 - nu); }
+inline double stiffness_ratio(double nu)
+{
+  return 2.0 * (1.0 - nu) / (2.0 - nu);
+}
 
 class ContactLaw {
  public:
@@ -139,7 +148,10 @@ class ContactLaw {
 
 // Stiffness of a linear spring that stops a pair of reduced mass m, approaching at c, at overlap `most`; without
 // damping, which would help.
-inline double stopping_stiffness(double m, double c, double most) { return m * c * c / (most * most); }
+inline double stopping_stiffness(double m, double c, double most)
+{
+  return m * c * c / (most * most);
+}
 
 // Tangential displacement carried along with the turning contact: back into the tangent plane of the unit
 // normal, its length kept.

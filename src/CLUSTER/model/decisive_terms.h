@@ -44,7 +44,8 @@ struct SizeRule {
   {
     if (d * e_in < 0.999 * (1.0 + hysteresis) * k) return false;    // clearly not: l needs no cube root
     const StableSize size = stable(e_in);
-    return n > size.n && ClusterDEM::breaks(d, size.l, hysteresis) && plan_breakup(n, size.n, limits.lo).is_event();
+    return n > size.n && ClusterDEM::breaks(d, size.l, hysteresis) &&
+        plan_breakup(n, size.n, limits.lo).is_event();
   }
 
   // Was this term decisive for the breakup of a cluster that breaks? Only what drives can be.

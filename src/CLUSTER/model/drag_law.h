@@ -33,10 +33,7 @@ struct StokesDrag : DragLaw {
 
 // Schiller & Naumann (1933): C_D = 24/Re (1 + 0.15 Re^0.687), at least 0.44 (Re > 1000)
 struct SchillerNaumannDrag : DragLaw {
-  double cd_re(double re) const override
-  {
-    return std::max(24.0 * (1.0 + 0.15 * std::pow(re, 0.687)), 0.44 * re);
-  }
+  double cd_re(double re) const override { return std::max(24.0 * (1.0 + 0.15 * std::pow(re, 0.687)), 0.44 * re); }
 };
 
 // Wen & Yu (1966): the single-sphere drag at Re_eps = eps Re, times eps^-3.65 per particle
@@ -98,14 +95,13 @@ struct DragLawEntry {
 inline const std::vector<DragLawEntry> &drag_laws()
 {
   static const std::vector<DragLawEntry> laws = {
-      {"trancong", {{"c", 0.0, 1.0}, {"dA/dn", 0.0, 10.0}},
+      {"trancong",
+       {{"c", 0.0, 1.0}, {"dA/dn", 0.0, 10.0}},
        [](const double *p) { return std::make_unique<TranCongDrag>(p[0], p[1]); }},
       {"schiller/naumann", {}, [](const double *) { return std::make_unique<SchillerNaumannDrag>(); }},
       {"stokes", {}, [](const double *) { return std::make_unique<StokesDrag>(); }},
-      {"wen/yu", {{"voidage", 0.0, 1.0}},
-       [](const double *p) { return std::make_unique<WenYuDrag>(p[0]); }},
-      {"difelice", {{"voidage", 0.0, 1.0}},
-       [](const double *p) { return std::make_unique<DiFeliceDrag>(p[0]); }},
+      {"wen/yu", {{"voidage", 0.0, 1.0}}, [](const double *p) { return std::make_unique<WenYuDrag>(p[0]); }},
+      {"difelice", {{"voidage", 0.0, 1.0}}, [](const double *p) { return std::make_unique<DiFeliceDrag>(p[0]); }},
       {"none", {}, [](const double *) { return std::make_unique<NoDrag>(); }},
   };
   return laws;
@@ -116,7 +112,10 @@ struct Gas {
   double rho, nu;    // density [mass/volume], kinematic viscosity [length^2/time]
 };
 
-inline double reynolds(double speed, double d, const Gas &gas) { return speed * d / gas.nu; }
+inline double reynolds(double speed, double d, const Gas &gas)
+{
+  return speed * d / gas.nu;
+}
 
 // Coefficient b of F_D = b (u_g - V) on one sphere of diameter d at the given slip speed:
 // F_D = C_D pi/8 rho_g d^2 |u_g - V| (u_g - V) = pi/8 rho_g nu_g d (C_D Re) (u_g - V)
@@ -127,8 +126,8 @@ inline double drag_coefficient(const DragLaw &law, const Gas &gas, double d, dou
 
 // The share F of particles that feel the gas unshielded carries the drag of single particles:
 // b = (1 - F) b_cluster + F n b_particle, 0 <= F <= 1
-inline double cluster_drag_coefficient(const DragLaw &law, const Gas &gas, double d, double d_p,
-                                       double n, double unshielded, double slip_speed)
+inline double cluster_drag_coefficient(const DragLaw &law, const Gas &gas, double d, double d_p, double n,
+                                       double unshielded, double slip_speed)
 {
   double b = 0.0;
   if (unshielded < 1.0) b += (1.0 - unshielded) * drag_coefficient(law, gas, d, slip_speed);
@@ -138,7 +137,8 @@ inline double cluster_drag_coefficient(const DragLaw &law, const Gas &gas, doubl
 
 // One component of the drag at a coefficient b that is held for some steps; `along` is 1 where drag acts, else 0.
 // For numbers and for packs of them.
-template <typename Number> inline Number held_drag(const Number &along, const Number &b, const Number &u_g, const Number &v)
+template <typename Number>
+inline Number held_drag(const Number &along, const Number &b, const Number &u_g, const Number &v)
 {
   return along * b * (u_g - v);
 }

@@ -16,7 +16,8 @@ class DragTable : public DragLaw {
  public:
   static constexpr double RELATIVE_ERROR = 1.0e-10;
 
-  explicit DragTable(std::unique_ptr<DragLaw> exact) : law_(std::move(exact)), bins_(bin_of(HIGHEST) - bin_of(LOWEST))
+  explicit DragTable(std::unique_ptr<DragLaw> exact) :
+      law_(std::move(exact)), bins_(bin_of(HIGHEST) - bin_of(LOWEST))
   {
     for (std::size_t k = 0; k < bins_.size(); k++) bins_[k] = fit(start_of(k), start_of(k + 1));
   }

@@ -55,12 +55,12 @@ inline int cell_index(double share, int n)
 }
 
 // Three independent numbers uniform in [-1, 1], a pure function of the key (Philox 4x64-10).
-inline Vec3 uniform_fluctuation(std::uint64_t seed, std::uint64_t stream, std::int64_t a,
-                                std::int64_t b, std::int64_t period)
+inline Vec3 uniform_fluctuation(std::uint64_t seed, std::uint64_t stream, std::int64_t a, std::int64_t b,
+                                std::int64_t period)
 {
   r123::Philox4x64::key_type key = {{seed, stream}};
-  r123::Philox4x64::ctr_type counter = {{static_cast<std::uint64_t>(a), static_cast<std::uint64_t>(b),
-                                         static_cast<std::uint64_t>(period), 0}};
+  r123::Philox4x64::ctr_type counter = {
+      {static_cast<std::uint64_t>(a), static_cast<std::uint64_t>(b), static_cast<std::uint64_t>(period), 0}};
   const auto random = r123::Philox4x64()(counter, key);
   Vec3 u;
   for (int k = 0; k < 3; k++)

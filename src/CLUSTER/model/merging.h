@@ -20,7 +20,10 @@ inline double relative_slip(const Vec3 &v_i, const Vec3 &v_j)
   return slowest > 0.0 ? dv / slowest : std::numeric_limits<double>::infinity();
 }
 
-inline bool fits_together(int n_i, int n_j, int n_l) { return n_i <= n_l - n_j; }
+inline bool fits_together(int n_i, int n_j, int n_l)
+{
+  return n_i <= n_l - n_j;
+}
 
 struct Body {
   double mass;

@@ -73,8 +73,7 @@ class Lattice {
 // an odd number of pieces has one in the middle, an even number none
 struct Lattices {
   Lattice odd, even;
-  Lattices(int axis0, int axis1, double reach) :
-      odd(axis0, axis1, reach, true), even(axis0, axis1, reach, false)
+  Lattices(int axis0, int axis1, double reach) : odd(axis0, axis1, reach, true), even(axis0, axis1, reach, false)
   {
   }
 };
@@ -119,9 +118,9 @@ struct Walls {    // room along each axis; infinite where there is no wall
 
 struct Placement {
   bool found = false;
-  bool shifted = false;          // a nearer site was taken by a neighbour
-  double reach = 0.0;            // radius of the room that the fragments claim
-  std::vector<Vec3> centres;     // relative to the parent's centre of mass, one per piece
+  bool shifted = false;         // a nearer site was taken by a neighbour
+  double reach = 0.0;           // radius of the room that the fragments claim
+  std::vector<Vec3> centres;    // relative to the parent's centre of mass, one per piece
 };
 
 // How far around its parent a break of this plan looks for room, at most to its claim: twice the radius
@@ -137,10 +136,9 @@ inline double reach_of_break(const BreakPlan &plan, const ClusterGeometry &geome
 // Takes the nearest free sites in pairs of mirror images, so that the centre of mass stays where it is;
 // a piece of another size sits in the middle, or in the nearest pair. What is left of a shift is taken
 // off the whole set, and every gap is checked again (gap >= 0). `spacing` in diameters of the n_l pieces.
-inline Placement place_fragments(const BreakPlan &plan, const ClusterGeometry &geometry,
-                                 const Lattices &lattices, const Turn &turn, double spacing,
-                                 double claim, const std::vector<Obstacle> &obstacles,
-                                 const Walls &walls)
+inline Placement place_fragments(const BreakPlan &plan, const ClusterGeometry &geometry, const Lattices &lattices,
+                                 const Turn &turn, double spacing, double claim,
+                                 const std::vector<Obstacle> &obstacles, const Walls &walls)
 {
   Placement result;
   const int pieces = plan.pieces();
@@ -202,9 +200,8 @@ inline Placement place_fragments(const BreakPlan &plan, const ClusterGeometry &g
 
 // A break that needs more room than one event may claim, or than there is, goes in stages: half as
 // many pieces, a quarter … down to two, until a placement is found; they break further at a later check.
-inline Placement place_in_stages(BreakPlan &plan, int n, int n_l, int lower_limit,
-                                 const ClusterGeometry &geometry, const Lattices &lattices,
-                                 const Turn &turn, double spacing, double claim,
+inline Placement place_in_stages(BreakPlan &plan, int n, int n_l, int lower_limit, const ClusterGeometry &geometry,
+                                 const Lattices &lattices, const Turn &turn, double spacing, double claim,
                                  const std::vector<Obstacle> &obstacles, const Walls &walls)
 {
   Placement placement;

@@ -47,8 +47,7 @@ inline double n_smf(NsmfReading reading, double u_mf, double u_p, double eps_mf,
 
 // K of the EMMS literature: l = d_p at N = U_p g/(1 - eps_max), l -> inf at N = N_smf;
 // K = d_p [U_p/(1 - eps_max) - (U_mf + eps_mf U_p/(1 - eps_mf))] g, U_p superficial
-inline double k_emms(double d_p, double u_p, double u_mf, double eps_mf, double g,
-                     double eps_max = 0.9997)
+inline double k_emms(double d_p, double u_p, double u_mf, double eps_mf, double g, double eps_max = 0.9997)
 {
   return d_p * (u_p / (1.0 - eps_max) - (u_mf + eps_mf * u_p / (1.0 - eps_mf))) * g;
 }
@@ -60,8 +59,7 @@ struct StableSize {
 
 // Eq. (1) within the limits. E_in* <= 0 (or not a number): nothing breaks the cluster, l is the
 // upper limit.
-inline StableSize stable_size(double k, double e_in, const ClusterGeometry &geometry,
-                              const SizeLimits &limits)
+inline StableSize stable_size(double k, double e_in, const ClusterGeometry &geometry, const SizeLimits &limits)
 {
   if (!(e_in > 0.0)) return {geometry.diameter(limits.hi), limits.hi};
   const double l = k / e_in;

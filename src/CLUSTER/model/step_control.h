@@ -12,7 +12,10 @@
 namespace ClusterDEM {
 
 // Delta t <= C sqrt(m_i/k_n), C = pi/5 in the paper
-inline double contact_step(double c, double lightest_mass, double k_n) { return c * std::sqrt(lightest_mass / k_n); }
+inline double contact_step(double c, double lightest_mass, double k_n)
+{
+  return c * std::sqrt(lightest_mass / k_n);
+}
 
 // Time until a pair that approaches at `closing` overlaps by `most`; no bound if it does not approach.
 inline double time_to_overlap(double overlap, double most, double closing)
@@ -56,10 +59,12 @@ inline constexpr double MOST_CONTACTS = 12.0;
 
 // Their sum, with a margin, and for ten contacts that begin at approach c: (omega dt)^4/8 of m c^2 each (exact for the
 // linear spring). Where this is too much a step is prepared to be taken back.
-inline double possible_creation(double dt, const Restlessness &now, double k_n, double lightest, double heaviest, double c)
+inline double possible_creation(double dt, const Restlessness &now, double k_n, double lightest, double heaviest,
+                                double c)
 {
   const double swing = k_n * dt * dt / (0.5 * lightest);    // (omega dt)^2 at most
-  return 4.0 * (dt * dt * now.swing + 0.25 * dt * now.creep) + 10.0 * 0.125 * swing * swing * 0.5 * heaviest * c * c;
+  return 4.0 * (dt * dt * now.swing + 0.25 * dt * now.creep) +
+      10.0 * 0.125 * swing * swing * 0.5 * heaviest * c * c;
 }
 
 class StepSize {

@@ -29,8 +29,7 @@ def test_dem01_fall_contact_rebound(case, plate):
     length, rebound = closed.duration(-v1), closed.rebound(-v1)
     inside = (t > t1) & (t < t1 + length)
     depth = np.abs((R - z[inside]) - closed.overlap(t[inside] - t1, -v1)).max()
-    case.check(f"DEM01, {plate}: largest error of overlap / largest overlap", 0.0,
-               depth / (R - z).max(), abs=2e-4)
+    case.check(f"DEM01, {plate}: largest error of overlap / largest overlap", 0.0, depth / (R - z).max(), abs=2e-4)
     after = np.flatnonzero(t > t1 + length + 1e-3)[0]
     last = np.sqrt(w[after] ** 2 + 2 * G * (z[after] - R))
     case.check(f"DEM01, {plate}: velocity of rebound [m/s]", rebound, last, rel=2e-4)

@@ -48,8 +48,12 @@ def test_inside_the_contact(case, contact):
     for e, expected in ((1.0, 2.0), (0.3, 1.0)):
         errors = [inside_error(case, contact, e, steps) for steps in STEPS]
         case.check(f"{contact}, e = {e}: order inside a contact", expected, order(STEPS, errors), abs=0.1)
-        case.report(f"{contact}, e = {e}: error inside a contact at dt = {INSIDE['time'] / STEPS[-1]:.1e} s", 0.0,
-                    errors[-1], relative=False)
+        case.report(
+            f"{contact}, e = {e}: error inside a contact at dt = {INSIDE['time'] / STEPS[-1]:.1e} s",
+            0.0,
+            errors[-1],
+            relative=False,
+        )
 
 
 COLLISION_STEPS = (50, 100, 200, 400, 800) if FULL else (50, 400)
@@ -85,11 +89,20 @@ def test_figure(case):
         steps = np.array(STEPS)
         for e, mark in ((1.0, "o"), (0.3, "s")):
             for contact, line in zip(CONTACTS, ("-", ":"), strict=True):
-                left.loglog(INSIDE["time"] / steps, [inside_error(case, contact, e, n) for n in STEPS], mark + line,
-                            mfc="none", label=f"{contact}, e = {e}")
-                right.loglog(WHOLE / np.array(COLLISION_STEPS),
-                             [collision_error(case, contact, e, n) for n in COLLISION_STEPS], mark + line,
-                             mfc="none", label=f"{contact}, e = {e}")
+                left.loglog(
+                    INSIDE["time"] / steps,
+                    [inside_error(case, contact, e, n) for n in STEPS],
+                    mark + line,
+                    mfc="none",
+                    label=f"{contact}, e = {e}",
+                )
+                right.loglog(
+                    WHOLE / np.array(COLLISION_STEPS),
+                    [collision_error(case, contact, e, n) for n in COLLISION_STEPS],
+                    mark + line,
+                    mfc="none",
+                    label=f"{contact}, e = {e}",
+                )
         left.set(xlabel="dt [s]", ylabel="relative error of the overlap", title="inside a contact")
         right.set(xlabel="dt [s]", ylabel="error of rebound / approach speed", title="whole collision")
         left.xaxis.set_minor_formatter(NullFormatter())

@@ -56,14 +56,19 @@ def test_elastic_box_conserves(case, contact):
     ledger = Ledger(run, 1.0, 20)
     assert ledger.contacts.sum() > 300 and ledger.elastic.max() > 0.01 * ledger.kinetic[0]
     # velocity Verlet within a contact: bounded by (omega dt)^2 / 8 = 2e-5 of the energy in it
-    case.check(f"{contact}, e = 1: largest change of total energy / at the start", 0.0,
-               np.abs(ledger.total / ledger.total[0] - 1).max(), abs=2e-5)
+    case.check(
+        f"{contact}, e = 1: largest change of total energy / at the start",
+        0.0,
+        np.abs(ledger.total / ledger.total[0] - 1).max(),
+        abs=2e-5,
+    )
     momentum = np.abs(ledger.momentum).max() / np.sqrt(2 * ledger.kinetic[0] * ledger.mass)
     case.check(f"{contact}, e = 1: largest momentum / sqrt(2 m E)", 0.0, momentum, abs=1e-12)
     if contact == "gran/cluster":  # stock `granular` reports no energy
         error = np.abs(run.table("trace.txt")[:, 1] - ledger.elastic).max() / ledger.elastic.max()
-        case.check("gran/cluster: elastic energy that the engine reports, largest error / largest energy", 0.0, error,
-                   abs=1e-9)
+        case.check(
+            "gran/cluster: elastic energy that the engine reports, largest error / largest energy", 0.0, error, abs=1e-9
+        )
 
 
 @pytest.mark.parametrize("contact", CONTACTS)
@@ -75,8 +80,12 @@ def test_what_is_lost_is_dissipated(case, contact):
         # 46 frames per contact, whose power jumps at its beginning, anywhere within a frame
         share = ledger.dissipated[-1] / lost
         case.check(f"{contact}, e = {e}: dissipated in the dashpots / lost", 1.0, share, abs=0.01)
-        case.check(f"{contact}, e = {e}: largest rise of energy between frames / at the start", 0.0,
-                   max(0.0, np.diff(ledger.total).max() / ledger.total[0]), abs=1e-5)
+        case.check(
+            f"{contact}, e = {e}: largest rise of energy between frames / at the start",
+            0.0,
+            max(0.0, np.diff(ledger.total).max() / ledger.total[0]),
+            abs=1e-5,
+        )
 
 
 @pytest.mark.parametrize("contact", CONTACTS)
@@ -86,8 +95,12 @@ def test_friction_creates_no_energy(case, contact):
         ledger = ledger_of(case, contact=contact, e=e, mu=0.33)
         free = ledger.total[ledger.contacts == 0]
         assert len(free) > 100 and ledger.rotation[-1] > 0.01 * ledger.kinetic[-1]
-        case.check(f"{contact}, e = {e}, mu = 0.33: largest rise of energy between free frames / at the start", 0.0,
-                   max(0.0, np.diff(free).max() / free[0]), abs=1e-5)
+        case.check(
+            f"{contact}, e = {e}, mu = 0.33: largest rise of energy between free frames / at the start",
+            0.0,
+            max(0.0, np.diff(free).max() / free[0]),
+            abs=1e-5,
+        )
 
 
 def test_figure(case):
@@ -97,7 +110,13 @@ def test_figure(case):
             start = ledger.total[0]
             axes.plot(ledger.t * 1e3, ledger.total / start, color=color, label=f"e = {e}, µ = {mu}: total")
             if mu == 0.0 and e < 1.0:
-                axes.plot(ledger.t * 1e3, (ledger.total + ledger.dissipated) / start, color=color, ls="--", zorder=3,
-                          label=f"e = {e}, µ = {mu}: total + dissipated")
+                axes.plot(
+                    ledger.t * 1e3,
+                    (ledger.total + ledger.dissipated) / start,
+                    color=color,
+                    ls="--",
+                    zorder=3,
+                    label=f"e = {e}, µ = {mu}: total + dissipated",
+                )
         axes.set(xlabel="time [ms]", ylabel="energy / energy at the start")
         axes.legend(fontsize=7)

@@ -42,7 +42,8 @@ def samples(tmp_path_factory, request):
     case = VerificationCase(request.path.parent, tmp_path_factory.mktemp("maps"), None)
     return {
         (clusters, rule): np.array([counts(case, clusters, seed, rule) for seed in SEEDS])
-        for clusters in PUBLISHED for rule in (POINTS, DISCS)
+        for clusters in PUBLISHED
+        for rule in (POINTS, DISCS)
     }
 
 
@@ -53,8 +54,9 @@ def test_dispersion(case, samples, clusters):
     points, discs = (np.mean([dispersion(s) for s in samples[clusters, rule]]) for rule in (POINTS, DISCS))
     case.check(f"{clusters} clusters, overlaps allowed: variance / mean", 1.0, points, rel=scatter)
     # random sequential placement is not the equilibrium of the formula, and cells are finite: 2 % more
-    case.check(f"{clusters} clusters, no overlaps: variance / mean", hard_disc_dispersion(clusters), discs,
-               rel=scatter + 0.02)
+    case.check(
+        f"{clusters} clusters, no overlaps: variance / mean", hard_disc_dispersion(clusters), discs, rel=scatter + 0.02
+    )
 
 
 @pytest.mark.parametrize("clusters", PUBLISHED)
@@ -65,18 +67,32 @@ def test_densest_cell(case, samples, clusters):
     expected = np.sum(1 - below)
     spread = np.sqrt(np.sum((2 * k + 1) * (1 - below)) - expected**2)
     points, discs = (samples[clusters, rule].max(axis=1) for rule in (POINTS, DISCS))
-    case.check(f"{clusters} clusters, overlaps allowed: largest count, mean of the seeds", expected, np.mean(points),
-               abs=3 * spread / np.sqrt(len(SEEDS)))
+    case.check(
+        f"{clusters} clusters, overlaps allowed: largest count, mean of the seeds",
+        expected,
+        np.mean(points),
+        abs=3 * spread / np.sqrt(len(SEEDS)),
+    )
     published = PUBLISHED[clusters]
-    case.report(f"{clusters} clusters: densest cell published, Poisson mean [%, paper's scale]",
-                published, PERCENT * expected)
-    case.report(f"{clusters} clusters: densest cell published, mean of the seeds [%, paper's scale]",
-                published, PERCENT * np.mean(discs))
-    case.report(f"{clusters} clusters: densest cell published, largest of the seeds [%, paper's scale]",
-                published, PERCENT * np.max(discs))
+    case.report(
+        f"{clusters} clusters: densest cell published, Poisson mean [%, paper's scale]", published, PERCENT * expected
+    )
+    case.report(
+        f"{clusters} clusters: densest cell published, mean of the seeds [%, paper's scale]",
+        published,
+        PERCENT * np.mean(discs),
+    )
+    case.report(
+        f"{clusters} clusters: densest cell published, largest of the seeds [%, paper's scale]",
+        published,
+        PERCENT * np.max(discs),
+    )
     needed = int(np.ceil(published / PERCENT - 0.5))
-    case.report(f"{clusters} clusters: probability that a Poisson map has a cell as dense as published ({needed})",
-                1.0, 1 - below[needed - 1])
+    case.report(
+        f"{clusters} clusters: probability that a Poisson map has a cell as dense as published ({needed})",
+        1.0,
+        1 - below[needed - 1],
+    )
 
 
 def test_figure(case, samples):
@@ -88,6 +104,7 @@ def test_figure(case, samples):
             axes.semilogy(k[share > 0], share[share > 0], "o", color=color, label=f"{clusters}: engine, no overlaps")
             axes.axvline(PUBLISHED[clusters] / PERCENT, color=color, ls="--", lw=0.8, label="densest cell published")
         axes.axhline(1 / CELLS, color="k", ls=":", lw=0.8)
-        axes.set(xlabel="clusters in a cell", ylabel="share of the cells", ylim=(1e-6, 0.3),
-                 title="dotted: one cell of 900")
+        axes.set(
+            xlabel="clusters in a cell", ylabel="share of the cells", ylim=(1e-6, 0.3), title="dotted: one cell of 900"
+        )
         axes.legend(fontsize=7, loc="lower left")

@@ -6,8 +6,14 @@ from verification_case import FULL
 
 SPEED, MU, E, RADIUS = 3.9, 0.092, 0.98, 2.5e-3
 MEASURED = {  # angle of impact from the normal [degrees]: e_t of the experiment
-    2.0275: 0.7938, 3.9282: 0.7450, 9.6304: 0.6728, 20.0845: 0.5964,
-    30.2218: 0.6883, 39.3031: 0.7719, 49.5459: 0.8469, 59.8416: 0.9019,
+    2.0275: 0.7938,
+    3.9282: 0.7450,
+    9.6304: 0.6728,
+    20.0845: 0.5964,
+    30.2218: 0.6883,
+    39.3031: 0.7719,
+    49.5459: 0.8469,
+    59.8416: 0.9019,
 }
 # MFiX DEM05 with Hertz and a tangential spring, e = 1: the same problem by another code
 MFIX = {5.0: 0.9400, 10.0: 0.6903, 15.0: 0.6236, 20.0: 0.6150, 25.0: 0.6343, 30.0: 0.6813, 45.0: 0.8160, 60.0: 0.8938}
@@ -45,8 +51,11 @@ def test_experiment(case):
             case.check(f"mindlin, {angle:.2f} degrees: e_t, experiment", measured, e_t, rel=0.04)
         else:
             case.report(f"mindlin, {angle:.2f} degrees: e_t, experiment", measured, e_t)
-        case.report(f"gran/cluster md, {angle:.2f} degrees: e_t, experiment", measured,
-                    rebound(case, angle, contact="gran/cluster")[0])
+        case.report(
+            f"gran/cluster md, {angle:.2f} degrees: e_t, experiment",
+            measured,
+            rebound(case, angle, contact="gran/cluster")[0],
+        )
 
 
 def test_other_code(case):

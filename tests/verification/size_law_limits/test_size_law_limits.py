@@ -31,7 +31,7 @@ def test_dispersed_limit(case):
 
 
 def test_dense_limit(case):
-    """l grows without bound as N falls to N_smf: 1/(N - N_smf), up to the largest size allowed."""
+    """L grows without bound as N falls to N_smf: 1/(N - N_smf), up to the largest size allowed."""
     close = [repr(float(gas_speed(N_SMF * factor))) for factor in (1 - 1e-6, 30.0)]
     _, size, n_st, n_smf = sizes(case, lowest=close[0], highest=close[1], count=100)
     largest = D_P * np.cbrt(MOST)

@@ -22,9 +22,16 @@ def end_of_slip(t, v, rolling):
 
 
 # how the plate is made, and which tangential model of gran/cluster
-PLATES = [{"contact": "wall"}] + [{"contact": name} for name in CONTACTS if name == "granular"] + [
-    {"contact": name, "tangential": model} for name in CONTACTS if name == "gran/cluster" for model in ("md", "linear")
-]
+PLATES = (
+    [{"contact": "wall"}]
+    + [{"contact": name} for name in CONTACTS if name == "granular"]
+    + [
+        {"contact": name, "tangential": model}
+        for name in CONTACTS
+        if name == "gran/cluster"
+        for model in ("md", "linear")
+    ]
+)
 
 
 @pytest.mark.parametrize("plate", PLATES, ids=lambda plate: " ".join(plate.values()))
@@ -45,8 +52,12 @@ def test_rolls_on(case, plate):
     t, v, rolling = slide(case, 0.3, **plate)
     late = t > 1.1 * 2 / 7 * V0 / (0.3 * G)
     case.check(f"{' '.join(plate.values())}, mu = 0.3: mean v / v0 while rolling", 5 / 7, v[late].mean() / V0, rel=5e-4)
-    case.check(f"{' '.join(plate.values())}, mu = 0.3: mean R omega / v0 while rolling", 5 / 7,
-               rolling[late].mean() / V0, rel=5e-4)
+    case.check(
+        f"{' '.join(plate.values())}, mu = 0.3: mean R omega / v0 while rolling",
+        5 / 7,
+        rolling[late].mean() / V0,
+        rel=5e-4,
+    )
 
 
 def test_figure(case):

@@ -33,7 +33,7 @@ def test_contact_time_and_rebound(case, contact):
 
 
 def test_limit_of_a_dashpot_that_swallows_everything(case):
-    """e -> 0: rebound -> 0 and the contact lasts ever longer, as ln(1/e)."""
+    """E -> 0: rebound -> 0 and the contact lasts ever longer, as ln(1/e)."""
     e = 1e-4
     closed = LinearContact(K, M_EFF, e)
     t_c, rebound, _, _ = collide(case, e=e)
@@ -43,13 +43,13 @@ def test_limit_of_a_dashpot_that_swallows_everything(case):
 
 
 def test_zero_restitution_is_beyond_the_formula(case):
-    """ln 0: stock `granular` takes e = 0, says nothing, and its velocities are no numbers from the contact on."""
+    """Ln 0: stock `granular` takes e = 0, says nothing, and its velocities are no numbers from the contact on."""
     slip = case.run(e=0).table("trace.txt")[:, 3]
     assert np.isfinite(slip[0]) and np.isnan(slip[-1])
 
 
 def test_zero_restitution_is_critical_damping_in_gran_cluster(case):
-    """e -> 0 in the formula of eta is damping ratio 1: overlap v t exp(-omega_0 t), the pair never parts."""
+    """E -> 0 in the formula of eta is damping ratio 1: overlap v t exp(-omega_0 t), the pair never parts."""
     _, t, gap, slip = case.run(contact="gran/cluster", e=0, duration=4e-3).table("trace.txt").T
     omega = np.sqrt(K / M_EFF)
     since = t - (gap[0] - DIAMETER) / (2 * SPEED)

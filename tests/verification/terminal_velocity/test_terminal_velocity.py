@@ -49,6 +49,7 @@ def test_figure(case):
             trace = case.run(law=law, duration=3.0).table("trace.txt")
             (line,) = axes.plot(trace[:, 1], -trace[:, 3], label=law)
             axes.axhline(terminal(law, 400), color=line.get_color(), ls="--", lw=0.7)
-        axes.set(xlabel="time [s]", ylabel="falling speed, 400 particles [m/s]", ylim=(0, 6),
-                 title="dashed: weight = drag")
+        axes.set(
+            xlabel="time [s]", ylabel="falling speed, 400 particles [m/s]", ylim=(0, 6), title="dashed: weight = drag"
+        )
         axes.legend(fontsize=7)
