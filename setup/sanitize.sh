@@ -72,6 +72,6 @@ checked_build() {
   make_folder "$home"
   printf '#!/bin/sh\n%s "%s" "$@"\n' "$launch" "$LAMMPS_EXE" >"$launcher"
   chmod +x "$launcher"
-  LAMMPS_SOURCE_DIR=$LAMMPS_SOURCE_DIR LAMMPS_EXE=$launcher cmake --preset "$preset" >"$log" 2>&1 </dev/null &&
-    cmake --build "$home" >>"$log" 2>&1 </dev/null || die_with_log "$log" "the build for $preset failed."
+  { LAMMPS_SOURCE_DIR=$LAMMPS_SOURCE_DIR LAMMPS_EXE=$launcher cmake --preset "$preset" &&
+    cmake --build "$home"; } >"$log" 2>&1 </dev/null || die_with_log "$log" "the build for $preset failed."
 }

@@ -1,3 +1,4 @@
+# shellcheck shell=sh disable=SC2233  # in the form of LAMMPS' own Install.sh files
 # Called by LAMMPS' `make yes-cluster`, `no-cluster` and `package-update` in this folder, copied to LAMMPS' src.
 # mode = 0/1/2 for uninstall/install/update
 

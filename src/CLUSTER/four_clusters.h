@@ -24,7 +24,7 @@
 
 namespace LAMMPS_NS {
 
-typedef double Pack __attribute__((vector_size(4 * sizeof(double))));
+using Pack __attribute__((vector_size(4 * sizeof(double)))) = double;
 
 inline Pack load(const double *from)
 {

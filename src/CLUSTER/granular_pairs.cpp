@@ -90,7 +90,7 @@ void GranularPairs::walk(Pair *pair)
 {
   double **x = atom->x;
   const double *radius = atom->radius;
-  const NeighList *list = pair->list;
+  const NeighList *list = pair->list;    // NOLINT(clang-analyzer-core.NullDereference): of `pairs`, none is null
   for (int ii = 0; ii < list->inum; ii++) {
     const int i = list->ilist[ii];
     const int *jlist = list->firstneigh[i];
@@ -192,6 +192,7 @@ double GranularPairs::stiffness(const Contact &c) const
   memcpy(vi, atom->v[c.j], sizeof(kept));
   const Vec3 dx = to_vec3(atom->x[c.i]) - to_vec3(atom->x[c.j]);
   double normal = 0.0;
+  // NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage): a contact has its pair style
   c.pair->single(c.i, c.j, atom->type[c.i], atom->type[c.j], dot(dx, dx), 1.0, 1.0, normal);
   memcpy(vi, kept, sizeof(kept));
   const double r = ClusterDEM::norm(dx);
