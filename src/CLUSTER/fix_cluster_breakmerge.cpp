@@ -38,7 +38,8 @@ FixClusterBreakMerge::FixClusterBreakMerge(LAMMPS *lmp, int narg, char **arg) :
     break_refused(false), merge_tolerance(0.01), gravity(9.81), gravity_axis(2), claim_max(0.0), planar(true),
     spacing(2.0), rule{}, u_mf(0.0), drag(nullptr), pairs(lmp), count(nullptr), nmax_check(0), stable(nullptr),
     power(nullptr), ncontacts(nullptr), contact_force(0.0), suitor(nullptr), needs(nullptr), room(nullptr),
-    proceeds(nullptr), comm_stage(CONTACTS), totals{}, newborn_tags(lmp), output{}, output_step(-1)
+    proceeds(nullptr), comm_stage(CONTACTS), totals{}, newborn_tags(lmp), output{}, output_step(-1),
+    start_counted(false), merging_now(false)
 {
   force_reneighbor = 1;
   next_reneighbor = -1;
@@ -204,7 +205,7 @@ void FixClusterBreakMerge::parse_terms(StyleArguments &args)
 
 int FixClusterBreakMerge::setmask()
 {
-  return POST_INTEGRATE | PRE_EXCHANGE;
+  return POST_INTEGRATE | PRE_EXCHANGE | PRE_NEIGHBOR;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -243,23 +244,6 @@ void FixClusterBreakMerge::init()
         me, claim_max, sites, limits.lo, MOST_SITES);
   const int axis0 = planar ? 0 : -1, axis1 = planar ? 2 : -1;
   lattices = std::make_unique<Lattices>(axis0, axis1, claim_max / finest + 1.0);
-}
-
-/* ----------------------------------------------------------------------
-   contact history is saved in pre_exchange of a fix of the pair style: ours must come after it
-------------------------------------------------------------------------- */
-
-void FixClusterBreakMerge::check_order()
-{
-  bool after_me = false;
-  for (const auto &fix : modify->get_fix_list()) {
-    if (fix == this) after_me = true;
-    else if (after_me && utils::strmatch(fix->id, "^NEIGH_HISTORY"))
-      error->all(FLERR,
-                 "Fix {} {} must be defined after the pair_style command: contact history is saved "
-                 "in the order of definition",
-                 style, id);
-  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -309,34 +293,6 @@ void FixClusterBreakMerge::check_room()
                  "event would meet its own image",
                  style, id, domain->prd[axis], "xyz"[axis], claim_max);
   }
-}
-
-/* ----------------------------------------------------------------------
-   at the start of every run: the whole number of particles in each cluster, the highest ID
-------------------------------------------------------------------------- */
-
-void FixClusterBreakMerge::setup_pre_exchange()
-{
-  tagint mine = 0, all = 0;
-  for (int i = 0; i < atom->nlocal; i++) {
-    mine = MAX(mine, atom->tag[i]);
-    if (!(atom->mask[i] & groupbit)) continue;
-    count[i] = 0;    // a set command may have changed it
-    if (particle_count(i) > limits.hi)
-      error->one(FLERR,
-                 "Fix {} {}: cluster {} holds {} primary particles, above the upper limit {}: the pair "
-                 "cutoff is made for the largest diameter of the limits",
-                 style, id, atom->tag[i], count[i], limits.hi);
-  }
-  MPI_Allreduce(&mine, &all, 1, MPI_LMP_TAGINT, MPI_MAX, world);
-  newborn_tags.raise(all);
-
-  for (int axis = 0; axis < 3; axis++)
-    if (comm->procgrid[axis] > 1 && domain->subhi[axis] - domain->sublo[axis] < claim_max)
-      error->one(FLERR,
-                 "Fix {} {}: a rank's part of the box is {} long along {}, below the claim {}: use "
-                 "fewer ranks or a smaller claim",
-                 style, id, domain->subhi[axis] - domain->sublo[axis], "xyz"[axis], claim_max);
 }
 
 /* ----------------------------------------------------------------------

@@ -37,6 +37,7 @@ class FixClusterBreakMerge : public EngineFix {
   void setup(int) override;
   void post_integrate() override;
   void pre_exchange() override;
+  void pre_neighbor() override;
   void reset_grid() override;
 
   void grow_arrays(int) override;
@@ -130,7 +131,7 @@ class FixClusterBreakMerge : public EngineFix {
   double **room;    // claim: radius, centre relative to the cluster
   int *proceeds;
   std::vector<std::vector<tagint>> touching_tags;
-  enum { CONTACTS, TAGS, SIZES, SUITORS, PARTNERS, CLAIMS, VERDICTS } comm_stage;
+  enum { CONTACTS, TAGS, SIZES, SUITORS, PARTNERS, CLAIMS, VERDICTS, IDS } comm_stage;
 
   // One break, or one merge; a refused merge that breaks is both. Led by owned cluster i.
   struct Event {
@@ -169,6 +170,10 @@ class FixClusterBreakMerge : public EngineFix {
     DRAG_FORCE,
     CONTACT_FORCE,
     WEIGHT,
+    FED,
+    LEFT,
+    CLUSTERS_FED,
+    CLUSTERS_LEFT,
     NTOTALS
   };
   double totals[NTOTALS];
@@ -195,6 +200,15 @@ class FixClusterBreakMerge : public EngineFix {
   void find_stable_sizes();
   bool contact_ended(int i);
   void exchange(int stage, int size);
+
+  // fix_cluster_breakmerge_flow.cpp: clusters that come and go by other commands
+  bool start_counted;    // what is found from now on has come in
+  bool merging_now;      // clusters vanish because they merge
+  void check_part_of_box();
+  void welcome();
+  void number_by_place(const std::vector<int> &mine);
+  void note_deleted(int i);
+  void note_arrived(int i);
 
   // fix_cluster_breakmerge_decide.cpp: which events happen
   void propose_breaks();

@@ -117,9 +117,11 @@ void FixClusterBreakMerge::create_fragments(const Event &e, tagint first)
 void FixClusterBreakMerge::delete_dying()
 {
   std::sort(dying.begin(), dying.end());
+  merging_now = true;
   for (auto j = dying.rbegin(); j != dying.rend(); ++j) {
     atom->avec->copy(atom->nlocal - 1, *j, 1);
     atom->nlocal--;
   }
+  merging_now = false;
   dying.clear();
 }

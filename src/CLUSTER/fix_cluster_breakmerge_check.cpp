@@ -43,6 +43,11 @@ int FixClusterBreakMerge::particle_count(int i)
         FLERR, "Fix {} {}: cluster {} {}: {} particles at voidage {} need diameter {:.10g} and density {:.10g}",
         style, id, atom->tag[i], fault, nearest, geometry.voidage, geometry.diameter(nearest), geometry.density());
   }
+  if (n.n > limits.hi)
+    error->one(FLERR,
+               "Fix {} {}: cluster {} holds {} primary particles, above the upper limit {}: the pair "
+               "cutoff is made for the largest diameter of the limits",
+               style, id, atom->tag[i], n.n, limits.hi);
   count[i] = n.n;
   array_atom[i][0] = n.n;
   array_atom[i][1] = d;

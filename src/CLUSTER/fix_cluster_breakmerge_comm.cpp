@@ -41,7 +41,8 @@ int FixClusterBreakMerge::pack_forward_comm(int n, int *list, double *buf, int, 
     else if (comm_stage == CLAIMS) {
       for (int c = 0; c < 4; c++) buf[m++] = room[i][c];
       buf[m++] = ubuf(needs[i]).d;
-    } else buf[m++] = ubuf(proceeds[i]).d;
+    } else if (comm_stage == IDS) buf[m++] = ubuf(atom->tag[i]).d;
+    else buf[m++] = ubuf(proceeds[i]).d;
   }
   return m;
 }
@@ -57,7 +58,8 @@ void FixClusterBreakMerge::unpack_forward_comm(int n, int first, double *buf)
     else if (comm_stage == CLAIMS) {
       for (int c = 0; c < 4; c++) room[i][c] = buf[m++];
       needs[i] = (int) ubuf(buf[m++]).i;
-    } else proceeds[i] = (int) ubuf(buf[m++]).i;
+    } else if (comm_stage == IDS) atom->tag[i] = (tagint) ubuf(buf[m++]).i;
+    else proceeds[i] = (int) ubuf(buf[m++]).i;
   }
 }
 
@@ -143,8 +145,9 @@ void FixClusterBreakMerge::grow_arrays(int nmax)
   if (test == CONTACT_ENDED) partners.resize(nmax);
 }
 
-void FixClusterBreakMerge::copy_arrays(int i, int j, int)
+void FixClusterBreakMerge::copy_arrays(int i, int j, int delflag)
 {
+  if (delflag) note_deleted(j);
   count[j] = count[i];
   memcpy(array_atom[j], array_atom[i], size_peratom_cols * sizeof(double));
   if (test == CONTACT_ENDED) partners[j] = partners[i];
@@ -178,6 +181,7 @@ int FixClusterBreakMerge::unpack_exchange(int i, double *buf)
     partners[i].resize(ubuf(buf[m++]).i);
     for (tagint &tag : partners[i]) tag = (tagint) ubuf(buf[m++]).i;
   }
+  note_arrived(i);
   return m;
 }
 

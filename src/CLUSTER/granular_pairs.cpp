@@ -42,8 +42,16 @@ void GranularPairs::find(const std::string &fix, int groupbit, double largest_di
   if (comm->ghost_velocity == 0)
     error->all(FLERR, "{} needs the velocities of ghost clusters: use comm_modify vel yes", fix);
 
-  // A pair style takes its cutoff from the largest radius there is at set-up; clusters that merge to
-  // a larger one would overlap without a force, and without a word.
+  check_cutoff(fix, groupbit, largest_diameter);
+}
+
+/* ----------------------------------------------------------------------
+   A pair style takes its cutoff from the largest radius there is at set-up; clusters that merge to
+   a larger one would overlap without a force, and without a word.
+------------------------------------------------------------------------- */
+
+void GranularPairs::check_cutoff(const std::string &fix, int groupbit, double largest_diameter) const
+{
   std::vector<int> present(atom->ntypes + 1, 0), anywhere(atom->ntypes + 1, 0);
   for (int i = 0; i < atom->nlocal; i++)
     if (atom->mask[i] & groupbit) present[atom->type[i]] = 1;

@@ -39,6 +39,9 @@ class GranularPairs : protected Pointers {
   // clusters of the largest diameter could be missed
   void find(const std::string &fix, int groupbit, double largest_diameter);
 
+  // the same for the pairs of types that there are now
+  void check_cutoff(const std::string &fix, int groupbit, double largest_diameter) const;
+
   // contacts() will be asked for at that step, before its forces: pair gran/cluster then notes those of the
   // step before while it computes
   void expect_contacts(bigint step);

@@ -23,11 +23,7 @@ void NewbornTags::assign(std::vector<Birth> &births)
   for (const Birth &b : births) mine += b.newborns;
   MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (all == 0) return;
-  if (highest + all >= MAXTAGINT)    // the engine takes no atom with the highest number itself
-    error->all(FLERR,
-               "Newborn clusters would need the atom ID {}, above the largest of this LAMMPS "
-               "build ({}): build with -DLAMMPS_SIZES=bigbig",
-               highest + all, MAXTAGINT);
+  check(all);
 
   std::vector<int> procs;
   for (std::size_t k = 0; k < births.size(); k++) {
@@ -44,7 +40,25 @@ void NewbornTags::assign(std::vector<Birth> &births)
   const Birth *numbered = (const Birth *) out;
   for (int k = 0; k < n; k++) births[numbered[k].index].first = numbered[k].first;
   memory->sfree(out);
-  highest += static_cast<tagint>(all);
+  take(all);
+}
+
+/* ---------------------------------------------------------------------- */
+
+tagint NewbornTags::take(bigint n)
+{
+  check(n);
+  highest += static_cast<tagint>(n);
+  return highest - static_cast<tagint>(n);
+}
+
+void NewbornTags::check(bigint n) const
+{
+  if (highest + n >= MAXTAGINT)    // the engine takes no atom with the highest number itself
+    error->all(FLERR,
+               "Newborn clusters would need the atom ID {}, above the largest of this LAMMPS "
+               "build ({}): build with -DLAMMPS_SIZES=bigbig",
+               highest + n, MAXTAGINT);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -28,11 +28,15 @@ class NewbornTags : protected Pointers {
   void raise(tagint tag) { highest = tag > highest ? tag : highest; }
   tagint highest_used() const { return highest; }
 
+  // the highest ID used before; the next n belong to the caller, on all ranks alike
+  tagint take(bigint n);
+
   // collective: sets first of every birth, and raises the highest ID used
   void assign(std::vector<Birth> &births);
 
  private:
   tagint highest;
+  void check(bigint n) const;
   static int number_bucket(int, char *, int &, int *&, char *&, void *);
 };
 

@@ -36,6 +36,9 @@ void GranularPairs::find(const std::string &fix, int, double)
 
 /* ---------------------------------------------------------------------- */
 
+// LIGGGHTS asks for the largest radius itself
+void GranularPairs::check_cutoff(const std::string &, int, double) const {}
+
 void GranularPairs::expect_contacts(bigint) {}
 
 void GranularPairs::find_contacts()

@@ -35,9 +35,7 @@ void NewbornTags::assign(std::vector<Birth> &births)
     all.push_back({in[k], in[k + 1]});
     newborns += in[k + 1];
   }
-  if (highest + newborns >= MAXTAGINT)
-    ErrorWords(error).all(FLERR, "Newborn clusters would need the atom ID {}, above the largest of LIGGGHTS ({})",
-                          highest + newborns, MAXTAGINT);
+  check(newborns);
   std::sort(all.begin(), all.end());
   for (auto &[parent, number] : all) {
     const tagint first = highest + 1;
@@ -46,6 +44,20 @@ void NewbornTags::assign(std::vector<Birth> &births)
   }
   for (Birth &b : births)
     b.first = std::lower_bound(all.begin(), all.end(), std::pair<tagint, tagint>(b.parent, 0))->second;
+}
+
+tagint NewbornTags::take(bigint n)
+{
+  check(n);
+  highest += static_cast<tagint>(n);
+  return highest - static_cast<tagint>(n);
+}
+
+void NewbornTags::check(bigint n) const
+{
+  if (highest + n >= MAXTAGINT)
+    ErrorWords(error).all(FLERR, "Newborn clusters would need the atom ID {}, above the largest of LIGGGHTS ({})",
+                          highest + n, MAXTAGINT);
 }
 
 int NewbornTags::number_bucket(int, char *, int &, int *&, char *&, void *)
