@@ -172,7 +172,7 @@ def test_a_second_process_in_the_same_folder_is_refused(place, command):
     with open(place.out / "runs/.lock", "w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         code, _, err = command(*place.arguments)
-    assert code == 2 and "another clusterdem trade is running in this folder" in err and place.launched() == 0
+    assert code == 2 and "another clusterdem is running studies in this folder" in err and place.launched() == 0
 
 
 @pytest.mark.skipif(shutil.which("mpirun") is None, reason="no mpirun")

@@ -9,9 +9,10 @@ from pathlib import Path
 import pytest
 from clusterdem.enginelog import read_log
 from clusterdem.errors import InputError
-from clusterdem.trade.engine import Engine, find_engine
-from clusterdem.trade.runs import plan
-from clusterdem.trade.script import read_script
+from clusterdem.studies.engine import Engine, find_engine
+from clusterdem.studies.runs import plan
+from clusterdem.studies.script import read_script
+from clusterdem.trade.frames import KEEPING
 from clusterdem.trade.settings import settings_of
 from clusterdem.trade.study import read_study
 
@@ -28,7 +29,7 @@ def study(tmp_path):
 
 
 def keys(study, engine=ENGINE):
-    return [run.key for run in plan(study, settings_of(study), engine, Path("runs"))]
+    return [run.key for run in plan(study, settings_of(study), engine, Path("runs"), KEEPING)]
 
 
 def edit(path):
@@ -100,7 +101,7 @@ def test_a_key_does_not_depend_on_the_place(study, tmp_path):
 
 
 def test_the_command(study):
-    run = plan(replace(study, ranks=2), settings_of(study), ENGINE, Path("runs"))[4]
+    run = plan(replace(study, ranks=2), settings_of(study), ENGINE, Path("runs"), KEEPING)[4]
     text = " ".join(run.command)
     assert text.startswith("mpirun -np 2 /opt/lmp -in ")
     assert "-var contact md" in text and "-var seed 2" in text and "-var outdir ." in text

@@ -5,9 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from clusterdem.studies.runs import Cost, Failure, Run, Setting
 from clusterdem.trade.errors import Error
-from clusterdem.trade.runs import Cost, Failure, Run
-from clusterdem.trade.settings import Setting
 from clusterdem.trade.weigh import Weighed, cheapest, front
 
 
@@ -44,7 +43,7 @@ def test_of_equals_the_one_with_fewest_changes():
 
 
 def test_what_failed_or_cannot_be_compared_is_no_answer():
-    run = Run(REFERENCE.setting, 1, "key", Path("runs/key"), ("lmp",), None)
+    run = Run(REFERENCE.setting, 1, "key", Path("runs/key"), ("lmp",), None, None)
     failed, other_box = (
         weighed("dt", [1.0, 1.0], 0.0, (Failure(run, "lost"),)),
         weighed("height", [1.0, 1.0, 1.0], None),

@@ -15,13 +15,13 @@ import sys
 from pathlib import Path
 
 from ..errors import InputError
+from ..studies.engine import find_engine
+from ..studies.runs import only_one
 from ..style import save
 from ..trade.answer import in_words, write_answer
 from ..trade.campaign import Campaign
-from ..trade.engine import find_engine
 from ..trade.figure import draw_pareto
 from ..trade.report import write_report, write_table
-from ..trade.runs import only_one
 from ..trade.study import read_study
 from ..trade.weigh import cheapest
 from .common import positive, tell

@@ -6,10 +6,11 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from .engine import Engine
+from ..studies.engine import Engine
+from ..studies.runs import Failure, Run, Setting, perform, plan
+from .frames import KEEPING
 from .observables import Observed
-from .runs import Failure, Run, perform, plan
-from .settings import Setting, settings_of, together
+from .settings import settings_of, together
 from .study import Study
 from .weigh import Weighed, cheapest, weigh
 
@@ -39,7 +40,7 @@ class Campaign:
 
     def planned(self) -> list[Run]:
         """The runs of all settings that the study names."""
-        return plan(self.study, settings_of(self.study), self.engine, self.folder)
+        return plan(self.study, settings_of(self.study), self.engine, self.folder, KEEPING)
 
     def carry_out(self, runs: Iterable[Run]) -> None:
         """Do runs, and weigh all settings so far."""
@@ -63,7 +64,7 @@ class Campaign:
                     kept.append(candidate)
                     break
                 joined = together(self.study, [*kept, candidate])
-                self.carry_out(plan(self.study, [joined], self.engine, self.folder))
+                self.carry_out(plan(self.study, [joined], self.engine, self.folder, KEEPING))
                 if cheapest(self.weighed, tolerance) is self.weighed[-1]:
                     kept.append(candidate)
                     break

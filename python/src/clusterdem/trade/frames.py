@@ -7,8 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
+from ..errors import InputError
 from ..frame import Box, Frame
 from ..output import atomic
+from ..reader import read_dumps
+from ..rundir import RunFolder
+from ..studies.runs import Keeping
 
 COLUMNS = ("x", "z", "diameter", "mass")
 
@@ -39,3 +43,12 @@ def read_frames(path: Path) -> list[Frame]:
             columns = {name: data[f"{name}{number}"] for name in COLUMNS}
             frames.append(Frame(int(step), float(time), box, columns, str(path)))
     return frames
+
+
+def _keep(found: RunFolder) -> None:
+    if write_frames(found.path / "frames.npz", read_dumps(found.dumps, columns=())) < 2:
+        raise InputError(found.dumps[0], "holds no frame after the start")
+
+
+KEEPING = Keeping(1, _keep)
+"""Of a trade's runs."""

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..output import write_csv, write_text
-from .engine import Engine
+from ..studies.engine import Engine
 from .errors import Error
 from .observables import OBSERVABLES
 from .study import Study

@@ -5,33 +5,14 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from ..errors import InputError
-from .study import Axis, Study, Variables
+from ..studies.runs import Setting
+from .study import Axis, Study
 
 REFERENCE = "reference"
 MOST = 10_000
 """Most settings of a study; a product of axes grows fast."""
-
-
-@dataclass(frozen=True)
-class Setting:
-    """One setting of an input script.
-
-    Parameters
-    ----------
-    axis : str
-        The axis on which it leaves the reference; ``reference``, or a sum of axes.
-    name : str
-        What is set.
-    variables : dict of str to str
-        All variables but the seed.
-    """
-
-    axis: str
-    name: str
-    variables: Variables
 
 
 def _merge(study: Study, chosen: Sequence[int]) -> Setting:

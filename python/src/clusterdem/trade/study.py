@@ -2,39 +2,17 @@
 
 from __future__ import annotations
 
-import re
-import tomllib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from ..errors import InputError
+from ..studies.file import StudyReader, Variables, load_table
 from .observables import CELL, OBSERVABLES
-
-Variables = dict[str, str]
-"""LAMMPS index variables by name, each given as ``-var NAME VALUE``."""
-
-OWN_VARIABLES = ("seed", "inputs", "outdir")
-"""Variables that the study itself sets for every run."""
 
 ONE_AT_A_TIME, PRODUCT = "one at a time", "product"
 DEFAULT_SEEDS = 5
 FEWEST_SEEDS = 3
 KEYS = ("input", "seeds", "ranks", "combine", "observables", "cell", "variables", "switches", "axis")
-
-
-class Written(float):
-    """A number that remembers how it was written: LAMMPS and the tables get ``1e-6``, not ``1e-06``."""
-
-    def __new__(cls, text: str) -> Written:
-        number = super().__new__(cls, text)
-        number.text = text
-        return number
-
-    text: str
-
-    def __repr__(self) -> str:
-        return self.text
 
 
 @dataclass(frozen=True)
@@ -109,14 +87,7 @@ def read_study(path: str | Path, variables: Variables | None = None, seeds: int 
         How many seeds, in place of those of the file.
     """
     path = Path(path)
-    try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"), parse_float=Written)
-    except OSError as error:
-        raise InputError(path, f"cannot be read: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise InputError(path, "is not a text file (UTF-8)") from error
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(path, f"is not TOML: {error}") from error
+    table = load_table(path)
     if seeds is not None:
         table["seeds"] = seeds
     if variables and isinstance(table.setdefault("variables", {}), dict):
@@ -124,18 +95,9 @@ def read_study(path: str | Path, variables: Variables | None = None, seeds: int 
     return _Reader(path, table).study()
 
 
-@dataclass
-class _Reader:
-    path: Path
-    table: dict[str, Any]
-
-    def refuse(self, key: str, value: object, rule: str) -> InputError:
-        return InputError(self.path, f"{key} = {value!r}: {rule}")
-
+class _Reader(StudyReader):
     def study(self) -> Study:
-        for key in self.table:
-            if key not in KEYS:
-                raise InputError(self.path, f"unknown key {key!r}: the keys are {', '.join(KEYS)}")
+        self.only(KEYS, self.table)
         variables = self.variables("variables", self.table.get("variables", {}))
         axes = (*self.switches(), *self.named_axes())
         if not axes:
@@ -144,40 +106,17 @@ class _Reader:
         combine = self.table.get("combine", ONE_AT_A_TIME)
         if combine not in (ONE_AT_A_TIME, PRODUCT):
             raise self.refuse("combine", combine, f"must be {ONE_AT_A_TIME!r} or {PRODUCT!r}")
-        ranks = self.table.get("ranks", 1)
-        if type(ranks) is not int or ranks < 1:
-            raise self.refuse("ranks", ranks, "must be a whole number, 1 or more")
         return Study(
             self.path,
-            self.input(),
+            self.input(self.table),
             axes,
-            self.seeds(),
+            self.seeds(self.table.get("seeds", DEFAULT_SEEDS), FEWEST_SEEDS),
             variables,
-            ranks,
+            self.count("ranks", self.table.get("ranks", 1)),
             combine == PRODUCT,
             self.observables(),
             self.cell(),
         )
-
-    def input(self) -> Path:
-        name = self.table.get("input")
-        if not isinstance(name, str):
-            raise InputError(self.path, "input: must name the LAMMPS input script, relative to the study file")
-        script = (self.path.parent / name).resolve()
-        if not script.is_file():
-            raise self.refuse("input", name, "no such file (relative to the study file)")
-        return script
-
-    def seeds(self) -> tuple[int, ...]:
-        given = self.table.get("seeds", DEFAULT_SEEDS)
-        seeds = list(range(1, given + 1)) if type(given) is int and given < 10**6 else given
-        if not isinstance(seeds, list) or not all(type(seed) is int and 0 < seed < 2**31 for seed in seeds):
-            raise self.refuse("seeds", given, "must be how many, or a list of positive whole numbers below 2^31")
-        if len(set(seeds)) < len(seeds):
-            raise self.refuse("seeds", given, "must all differ")
-        if len(seeds) < FEWEST_SEEDS:
-            raise self.refuse("seeds", given, f"fewer than {FEWEST_SEEDS} show no spread between seeds")
-        return tuple(seeds)
 
     def observables(self) -> tuple[str, ...]:
         names = self.table.get("observables", list(OBSERVABLES))
@@ -198,22 +137,6 @@ class _Reader:
         ):
             raise self.refuse("cell", size, "must be the width and height of a map's cell, two positive numbers (m)")
         return float(size[0]), float(size[1])
-
-    def variables(self, where: str, given: object) -> Variables:
-        if not isinstance(given, dict):
-            raise self.refuse(where, given, "must be a table of variables")
-        return {name: self.value(where, name, value) for name, value in given.items()}
-
-    def value(self, where: str, name: str, value: object) -> str:
-        if not re.fullmatch(r"\w+", name, re.ASCII):
-            raise self.refuse(where, name, "a LAMMPS variable's name holds letters, digits and underscores only")
-        if name in OWN_VARIABLES:
-            raise self.refuse(f"{where}.{name}", value, "is set by the study itself (seeds by the key seeds)")
-        if isinstance(value, bool) or not isinstance(value, (str, int, float)):
-            raise self.refuse(f"{where}.{name}", value, "must be a number or a text, as after -var")
-        if not str(value).strip() or "\n" in str(value):
-            raise self.refuse(f"{where}.{name}", value, "must be one line that is not empty")
-        return str(value)
 
     def switches(self) -> list[Axis]:
         given = self.table.get("switches", {})

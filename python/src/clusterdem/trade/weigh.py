@@ -7,11 +7,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from ..errors import InputError
+from ..studies.runs import Cost, Failure, Run, Setting, read_cost
 from .errors import Error, errors_of
 from .frames import read_frames
 from .observables import Observed, observe
-from .runs import Cost, Failure, Run, read_cost
-from .settings import REFERENCE, Setting
+from .settings import REFERENCE
 from .study import FEWEST_SEEDS, Study
 
 WORTH = 0.02

@@ -8,33 +8,88 @@ import json
 import os
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Protocol
 
 from tqdm import tqdm
 
 from ..enginelog import read_log
 from ..errors import InputError
 from ..output import write_text
-from ..reader import read_dumps
-from ..rundir import find_run
+from ..rundir import RunFolder, find_run
 from .engine import Engine
-from .frames import write_frames
+from .file import OWN_VARIABLES, Variables
 from .script import read_script
-from .settings import Setting
-from .study import OWN_VARIABLES, Study
-
-FORMAT = 1
-"""Raised when what is kept of a run changes: older runs are then done again."""
 
 TAIL = 12
 """Lines of a failed run's output that are shown."""
+
+
+OVERRAN = "overran"
+"""Marks a run that took longer than its limit, which it holds."""
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One setting of an input script.
+
+    Parameters
+    ----------
+    axis : str
+        What kind of setting it is: the axis of a trade on which it leaves the reference, the case of a calibration.
+    name : str
+        What is set.
+    variables : dict of str to str
+        All variables but the seed.
+    """
+
+    axis: str
+    name: str
+    variables: Variables
+
+
+@dataclass(frozen=True)
+class Keeping:
+    """What is kept of a run's dumps, which themselves are not.
+
+    Parameters
+    ----------
+    format : str or int
+        Changed when that changes: older runs are then done again.
+    keep : callable
+        Writes it; raises InputError where the dumps do not hold it.
+    """
+
+    format: str | int
+    keep: Callable[[RunFolder], None]
+
+
+class Task(Protocol):
+    """What a study's runs have in common."""
+
+    @property
+    def path(self) -> Path:
+        """The study file."""
+
+    @property
+    def input(self) -> Path:
+        """The input script."""
+
+    @property
+    def seeds(self) -> tuple[int, ...]:
+        """Every setting runs with each of them."""
+
+    @property
+    def ranks(self) -> int:
+        """MPI ranks of a run."""
 
 
 @dataclass(frozen=True)
@@ -51,6 +106,10 @@ class Run:
         How it is started.
     engine : Engine
         What runs it.
+    keeping : Keeping
+        What is kept of it.
+    limit : int, optional
+        Core-seconds after which each of its processes is ended.
     """
 
     setting: Setting
@@ -59,11 +118,24 @@ class Run:
     folder: Path
     command: tuple[str, ...]
     engine: Engine
+    keeping: Keeping
+    limit: int | None = None
 
     @property
     def done(self) -> bool:
         """Whether its results are there."""
         return (self.folder / "cost.json").is_file()
+
+    @property
+    def failed_folder(self) -> Path:
+        """Where its remains are if it failed."""
+        return self.folder.with_name(f"{self.key}.failed")
+
+    @property
+    def overran(self) -> bool:
+        """Whether it has been tried, and took longer than it may now: it is not tried again."""
+        mark = self.failed_folder / OVERRAN
+        return self.limit is not None and mark.is_file() and int(mark.read_text()) >= self.limit
 
 
 @dataclass(frozen=True)
@@ -96,7 +168,14 @@ class Failure:
         return f"{self.run.setting.name}, seed {self.run.seed}\n$ {shlex.join(self.run.command)}\n{self.reason}"
 
 
-def plan(study: Study, settings: Iterable[Setting], engine: Engine, folder: Path) -> list[Run]:
+def plan(
+    study: Task,
+    settings: Iterable[Setting],
+    engine: Engine,
+    folder: Path,
+    keeping: Keeping,
+    limit: int | None = None,
+) -> list[Run]:
     """The runs of settings: every one with every seed."""
     runs = []
     for setting in settings:
@@ -109,14 +188,15 @@ def plan(study: Study, settings: Iterable[Setting], engine: Engine, folder: Path
             (os.path.relpath(file, inputs), hashlib.sha256(file.read_bytes()).hexdigest()) for file in script.files
         ]
         for seed in study.seeds:
-            decides = [FORMAT, engine.identity, study.ranks, sorted(setting.variables.items()), seed, files]
+            decides = [keeping.format, engine.identity, study.ranks, sorted(setting.variables.items()), seed, files]
             key = hashlib.sha256(json.dumps(decides).encode()).hexdigest()[:24]
             launch = ["mpirun", "-np", str(study.ranks)] if study.ranks > 1 else []
-            command = [*launch, engine.path, "-in", str(study.input), "-log", "log.lammps"]
+            bounded = ["prlimit", f"--cpu={limit}:{limit + 1}", "--core=0"] if limit else []
+            command = [*bounded, *launch, engine.path, "-in", str(study.input), "-log", "log.lammps"]
             own = dict(zip(OWN_VARIABLES, (str(seed), str(inputs), ".")))
             for name, value in {**setting.variables, **own}.items():
                 command += ["-var", name, value]
-            runs.append(Run(setting, seed, key, folder / key, tuple(command), engine))
+            runs.append(Run(setting, seed, key, folder / key, tuple(command), engine, keeping, limit))
     return runs
 
 
@@ -133,7 +213,7 @@ def only_one(folder: Path) -> Iterator[None]:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
-            raise InputError(folder, "another clusterdem trade is running in this folder") from None
+            raise InputError(folder, "another clusterdem is running studies in this folder") from None
         yield
 
 
@@ -166,17 +246,16 @@ class _Workers:
                 process.terminate()
 
 
-def perform(runs: Sequence[Run], jobs: int) -> dict[str, Failure]:
+def perform(runs: Sequence[Run], jobs: int, quiet: bool = False) -> dict[str, Failure]:
     """Do the runs that are not done, at most ``jobs`` at a time; the failures by key.
 
     An interrupted run leaves nothing that counts; finished ones are not run again.
     """
-    missing = list({run.key: run for run in runs if not run.done}.values())
-    failures: dict[str, Failure] = {}
+    failures = {run.key: Failure(run, "took too long before") for run in runs if not run.done and run.overran}
+    missing = list({run.key: run for run in runs if not run.done and run.key not in failures}.values())
     workers = _Workers()
-    bar = tqdm(
-        total=len(missing), unit="run", disable=not missing or not sys.stderr.isatty(), leave=False, file=sys.stderr
-    )
+    hidden = quiet or not missing or not sys.stderr.isatty()
+    bar = tqdm(total=len(missing), unit="run", disable=hidden, leave=False, file=sys.stderr)
     with bar, ThreadPoolExecutor(jobs) as pool:
         pending: set[Future[Failure | None]] = {pool.submit(_execute, run, workers) for run in missing}
         try:
@@ -195,7 +274,7 @@ def perform(runs: Sequence[Run], jobs: int) -> dict[str, Failure]:
 
 
 def _execute(run: Run, workers: _Workers) -> Failure | None:
-    part, failed = (run.folder.with_name(f"{run.key}.{what}") for what in ("part", "failed"))
+    part, failed = run.folder.with_name(f"{run.key}.part"), run.failed_folder
     for folder in (part, failed):
         shutil.rmtree(folder, ignore_errors=True)
     part.mkdir(parents=True)
@@ -208,24 +287,26 @@ def _execute(run: Run, workers: _Workers) -> Failure | None:
                 raise InputError(
                     run.engine.path, "it or a plugin was built anew during the study: start the study again"
                 )
-            _keep(part)
+            _keep(part, run.keeping)
             os.replace(part, run.folder)
             return None
         except InputError as error:
             reason = str(error)
+    if run.limit and code in (-signal.SIGXCPU, 128 + signal.SIGXCPU):
+        reason = f"took more than {run.limit} core-seconds, the limit"
+        write_text(part / OVERRAN, f"{run.limit}\n")
     os.replace(part, failed)
     tail = (failed / "screen.txt").read_text(errors="replace").splitlines()[-TAIL:]
     return Failure(run, "\n".join([*tail, reason, f"all it said: {failed / 'screen.txt'}"]))
 
 
-def _keep(folder: Path) -> None:
-    """Reduce a run's dumps to what observables need, note its cost, and drop what is large."""
+def _keep(folder: Path, keeping: Keeping) -> None:
+    """Keep of a run's dumps what the study needs, note its cost, and drop what is large."""
     log = read_log(folder / "log.lammps")
     if not log.steps:
         raise InputError(folder / "log.lammps", "holds no time loop: the script must run at least one step")
     found = find_run(folder)
-    if write_frames(folder / "frames.npz", read_dumps(found.dumps, columns=())) < 2:
-        raise InputError(found.dumps[0], "holds no frame after the start")
+    keeping.keep(found)
     for file in [*found.dumps, *folder.glob("*.restart")]:
         file.unlink()
     write_text(folder / "cost.json", json.dumps({"wall": log.loop, "core_seconds": log.core_seconds}) + "\n")

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..errors import InputError
-from .study import Variables
+from .file import Variables
 
 REFERENCE = re.compile(r"\$\{(\w+)\}|\bv_(\w+)|\$(\w)")
 DEFINITION = re.compile(r"\s*variable\s+(\w+)\s+(index|string)\s+[\"']*([^\"'\s]*)")
