@@ -59,11 +59,18 @@ class Case:
         The paper first, then row A.
     statement : str
         What the paper says besides the numbers.
+    particles : int
+        Primary particles.
+    bounds : mapping of int to (str, float)
+        What the statement bounds: mean diameter (m) at the end in a strip, 0 at the centre to 5 at the wall, as
+        ``below`` or ``above`` with its limit.
     """
 
     title: str
     rows: tuple[Row, ...]
     statement: str
+    particles: int
+    bounds: Mapping[int, tuple[str, float]] = field(default_factory=dict)
 
 
 END = 0.05
@@ -106,6 +113,7 @@ CASES: dict[str, Case] = {
             ),
         ),
         "Locally dense, but evenly so over the whole field; nearly steady after 0.05 s.",
+        2_000_000,
     ),
     "case2": Case(
         "uniform gas, 5 m/s, 3.1 million particles",
@@ -140,6 +148,7 @@ CASES: dict[str, Case] = {
             ),
         ),
         "Locally dense, but evenly so over the whole field; the number of clusters peaks at 0.03 s, then falls.",
+        3_100_000,
     ),
     "case3": Case(
         "gas fast in the centre and falling at the walls, mean 5 m/s, 3.1 million particles",
@@ -155,6 +164,8 @@ CASES: dict[str, Case] = {
             ),
         ),
         "The walls grow dense and the centre dilute; clusters below 300 µm in the centre, mostly above 600 µm at the walls.",
+        3_100_000,
+        {0: ("below", 300e-6), 5: ("above", 600e-6)},
     ),
 }
 """The three cases by name."""

@@ -1,0 +1,1 @@
+"""Parameters and readings of an input script fitted to observed numbers."""
