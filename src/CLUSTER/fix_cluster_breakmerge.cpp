@@ -31,12 +31,12 @@ static constexpr double MOST_SITES = 1.0e7;    // of a lattice for fragments: 0.
 /* ---------------------------------------------------------------------- */
 
 FixClusterBreakMerge::FixClusterBreakMerge(LAMMPS *lmp, int narg, char **arg) :
-    EngineFix(lmp, narg, arg), geometry{0.0, 0.0, 0.5}, k_given(false), k_from_emms(false), k_value(0.0),
+    EngineFix(lmp, narg, arg), kinds(1), kind_of_type(atom->ntypes + 1, 0), k_given(false), k_from_emms(false), k_value(0.0),
     umf_value(0.0), umf_from_wen_yu(true), eps_mf(0.5), cells_given(false), cells{1, 1, 1},
     nst(NstReading::PARTICLE), nsmf(NsmfReading::EMMS), up(UpReading::OWN), ncc_factor(1.0), term_st(true),
     term_cc(true), term_mf(true), test(ALWAYS), hysteresis(0.26), breaking(true), merging(true),
     break_refused(false), merge_tolerance(0.01), gravity(9.81), gravity_axis(2), claim_max(0.0), planar(true),
-    spacing(2.0), rule{}, u_mf(0.0), drag(nullptr), pairs(lmp), count(nullptr), nmax_check(0), stable(nullptr),
+    spacing(2.0), drag(nullptr), pairs(lmp), count(nullptr), nmax_check(0), stable(nullptr),
     power(nullptr), ncontacts(nullptr), contact_force(0.0), suitor(nullptr), needs(nullptr), room(nullptr),
     proceeds(nullptr), comm_stage(CONTACTS), totals{}, newborn_tags(lmp), output{}, output_step(-1),
     start_counted(false), merging_now(false)
@@ -69,8 +69,9 @@ FixClusterBreakMerge::FixClusterBreakMerge(LAMMPS *lmp, int narg, char **arg) :
 
   StyleArguments args(lmp, narg, arg, 3);
   nevery = args.integer("Nevery", 1);
-  geometry.d_p = args.positive("d_p", "length");
-  geometry.rho_p = args.positive("rho_p", "mass/volume");
+  auto &first = kinds[0].rule.geometry;
+  first.d_p = args.positive("d_p", "length");
+  first.rho_p = args.positive("rho_p", "mass/volume");
   parse(args);
 
   use_hash_map(atom, domain);    // newborns find room and partners through it
@@ -113,9 +114,11 @@ void FixClusterBreakMerge::parse(StyleArguments &args)
       k_value = k_from_emms ? args.positive("K emms U_p", "velocity")
                             : args.positive("K", "length*power/mass, or emms U_p");
     } else if (keyword == "void") {
-      geometry.voidage = args.number(keyword, "a number >= 0 and < 1");
-      if (!(geometry.voidage >= 0.0 && geometry.voidage < 1.0)) args.refuse(keyword, "a number >= 0 and < 1");
-    } else if (keyword == "limits") {
+      auto &voidage = kinds[0].rule.geometry.voidage;
+      voidage = args.number(keyword, "a number >= 0 and < 1");
+      if (!(voidage >= 0.0 && voidage < 1.0)) args.refuse(keyword, "a number >= 0 and < 1");
+    } else if (keyword == "kind") parse_kind(args);
+    else if (keyword == "limits") {
       limits.lo = args.integer("limits lower", 1);
       limits.hi = args.integer("limits upper", limits.lo);
     } else if (keyword == "umf") {
@@ -165,7 +168,8 @@ void FixClusterBreakMerge::parse(StyleArguments &args)
     } else args.unknown_keyword();
   }
 
-  if (claim_max == 0.0) claim_max = 1.6 * geometry.diameter(limits.hi);
+  for (Kind &k : kinds) k.rule.geometry.voidage = kinds[0].rule.geometry.voidage;
+  if (claim_max == 0.0) claim_max = 1.6 * largest_diameter();
   if (!k_given) error->all(FLERR, "Illegal fix {} command: the keyword K is required", style);
   if (term_st && drag_id.empty())
     error->all(FLERR,
@@ -184,6 +188,29 @@ void FixClusterBreakMerge::parse(StyleArguments &args)
                "keyword grid nx ny nz",
                style);
   if (!cell_reading) cells_given = false;    // no averages that nobody asks for
+  if (term_mf && up == UpReading::SUPERFICIAL)
+    for (const Kind &k : kinds)
+      if (k.rule.geometry.rho_p != kinds[0].rule.geometry.rho_p)
+        error->all(FLERR,
+                   "Illegal fix {} command: up superficial knows one density of primary particles only, not the {} and "
+                   "{} of keyword kind",
+                   style, kinds[0].rule.geometry.rho_p, k.rule.geometry.rho_p);
+}
+
+/* ----------------------------------------------------------------------
+   an atom type with primary particles of its own
+------------------------------------------------------------------------- */
+
+void FixClusterBreakMerge::parse_kind(StyleArguments &args)
+{
+  const int type = args.integer("kind TYPE", 1);
+  if (type > atom->ntypes) args.refuse("kind TYPE", fmt::format("an atom type from 1 to {}", atom->ntypes));
+  if (kind_of_type[type]) args.refuse("kind TYPE", "a type that has no kind yet");
+  kind_of_type[type] = static_cast<int>(kinds.size());
+  Kind other = {};
+  other.rule.geometry.d_p = args.positive("kind d_p", "length");
+  other.rule.geometry.rho_p = args.positive("kind rho_p", "mass/volume");
+  kinds.push_back(other);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -221,20 +248,12 @@ void FixClusterBreakMerge::init()
 
   check_order();
   find_drag();
-  u_mf = umf_from_wen_yu && drag ? umf_wen_yu(geometry.d_p, geometry.rho_p, drag->gas_properties(), gravity)
-                                 : umf_value;
-  const double k = k_from_emms ? k_emms(geometry.d_p, k_value, u_mf, eps_mf, gravity) : k_value;
-  if (!(k > 0.0))
-    error->all(FLERR,
-               "{}: K emms {} gives K = {}: U_p must be above {} (so that U_p/(1 - 0.9997) exceeds "
-               "the minimum fluidization)",
-               me, k_value, k, u_mf * 3.0e-4);
-  rule = {k, hysteresis, geometry, limits};
-
-  pairs.find(me, groupbit, geometry.diameter(limits.hi));
+  make_rules();
+  pairs.find(me, groupbit, largest_diameter());
   if (looks_at_contacts()) pairs.expect_contacts(next_check(update->ntimestep));
   check_room();
-  const double finest = spacing * geometry.diameter(limits.lo);
+  double finest = INFINITY;
+  for (const Kind &k : kinds) finest = MIN(finest, spacing * k.rule.geometry.diameter(limits.lo));
   const double sites = ClusterDEM::Lattice::sites_within(planar, claim_max / finest + 1.0);
   if (sites > MOST_SITES)
     error->all(
@@ -244,6 +263,32 @@ void FixClusterBreakMerge::init()
         me, claim_max, sites, limits.lo, MOST_SITES);
   const int axis0 = planar ? 0 : -1, axis1 = planar ? 2 : -1;
   lattices = std::make_unique<Lattices>(axis0, axis1, claim_max / finest + 1.0);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixClusterBreakMerge::make_rules()
+{
+  for (Kind &kind : kinds) {
+    const ClusterGeometry &particles = kind.rule.geometry;
+    kind.u_mf = umf_from_wen_yu && drag
+        ? umf_wen_yu(particles.d_p, particles.rho_p, drag->gas_properties(), gravity)
+        : umf_value;
+    const double k = k_from_emms ? k_emms(particles.d_p, k_value, kind.u_mf, eps_mf, gravity) : k_value;
+    if (!(k > 0.0))
+      error->all(FLERR,
+                 "Fix {} {}: K emms {} gives K = {}: U_p must be above {} (so that U_p/(1 - 0.9997) exceeds "
+                 "the minimum fluidization)",
+                 style, id, k_value, k, kind.u_mf * 3.0e-4);
+    kind.rule = {k, hysteresis, particles, limits};
+  }
+}
+
+double FixClusterBreakMerge::largest_diameter() const
+{
+  double largest = 0.0;
+  for (const Kind &k : kinds) largest = MAX(largest, k.rule.geometry.diameter(limits.hi));
+  return largest;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -266,13 +311,13 @@ void FixClusterBreakMerge::find_drag()
 
 void FixClusterBreakMerge::check_room()
 {
-  const double largest = geometry.diameter(limits.hi);
+  const double largest = largest_diameter();
   if (claim_max < largest)
     error->all(FLERR,
                "Fix {} {}: claim {} [length] is below the largest cluster diameter {}: use a larger claim "
                "or a lower upper limit",
                style, id, claim_max, largest);
-  const double halves = 0.5 * (spacing + 1.0) * geometry.diameter(0.5 * limits.hi);
+  const double halves = 0.5 * (spacing + 1.0) * largest * std::cbrt(0.5);
   if (breaking && claim_max < halves)
     error->all(FLERR,
                "Fix {} {}: claim {} [length] is below {}, the room that two halves of the largest cluster "

@@ -65,7 +65,11 @@ class FixClusterBreakMerge : public EngineFix {
   double compute_vector(int) override;
   double memory_usage() override;
 
-  const ClusterDEM::ClusterGeometry &cluster_geometry() const { return geometry; }
+  const ClusterDEM::ClusterGeometry &cluster_geometry(int type) const
+  {
+    return kinds[kind_of_type[type]].rule.geometry;
+  }
+  bool one_kind() const { return kinds.size() == 1; }
   const ClusterDEM::SizeLimits &size_limits() const { return limits; }
   bool looks_at_power() const { return term_cc && ncc_factor > 0.0; }
 
@@ -74,7 +78,13 @@ class FixClusterBreakMerge : public EngineFix {
 
  private:
   // ---- settings
-  ClusterDEM::ClusterGeometry geometry;
+  // clusters of one kind of primary particle; kind 0 is that of the command, the others those of keyword kind
+  struct Kind {
+    ClusterDEM::SizeRule rule;
+    double u_mf;
+  };
+  std::vector<Kind> kinds;
+  std::vector<int> kind_of_type;    // by atom type
   ClusterDEM::SizeLimits limits;
   std::string drag_id;
   bool k_given, k_from_emms;
@@ -100,8 +110,6 @@ class FixClusterBreakMerge : public EngineFix {
   double spacing;
 
   // ---- what init() finds or derives
-  ClusterDEM::SizeRule rule;
-  double u_mf;
   FixDragCluster *drag;
   GranularPairs pairs;
   std::unique_ptr<CellAverages> averages;
@@ -181,9 +189,14 @@ class FixClusterBreakMerge : public EngineFix {
   double output[5 + NTOTALS];
   bigint output_step;
 
+  const Kind &kind(int i) const { return kinds[kind_of_type[atom->type[i]]]; }
+  const ClusterDEM::ClusterGeometry &geometry(int i) const { return kind(i).rule.geometry; }
+  double largest_diameter() const;
   bigint next_check(bigint step) const;    // the first check after it
   void parse(StyleArguments &);
   void parse_terms(StyleArguments &);
+  void parse_kind(StyleArguments &);
+  void make_rules();
   void find_drag();
   void check_order();
   void check_room();

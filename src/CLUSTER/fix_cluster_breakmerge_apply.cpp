@@ -80,11 +80,11 @@ void FixClusterBreakMerge::become(int i, int n, const Vec3 &x, const Vec3 &v)
     atom->x[i][axis] = x[axis];
     atom->v[i][axis] = v[axis];
   }
-  atom->radius[i] = 0.5 * geometry.diameter(n);
-  atom->rmass[i] = geometry.mass(n);
+  atom->radius[i] = 0.5 * geometry(i).diameter(n);
+  atom->rmass[i] = geometry(i).mass(n);
   count[i] = n;
   array_atom[i][0] = n;
-  array_atom[i][1] = geometry.diameter(n);
+  array_atom[i][1] = geometry(i).diameter(n);
   if (test == CONTACT_ENDED) partners[i].clear();
   for (auto &fix : modify->get_fix_by_style("^drag/cluster")) static_cast<FixDragCluster *>(fix)->redraw(i);
 }

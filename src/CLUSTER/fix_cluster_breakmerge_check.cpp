@@ -29,8 +29,9 @@ using namespace ClusterDEM;
 int FixClusterBreakMerge::particle_count(int i)
 {
   if (count[i]) return count[i];
-  const auto n = geometry.count_from_mass(atom->rmass[i]);
-  const double d = geometry.diameter(n.whole ? n.n : n.exact);
+  const ClusterGeometry &particles = geometry(i);
+  const auto n = particles.count_from_mass(atom->rmass[i]);
+  const double d = particles.diameter(n.whole ? n.n : n.exact);
   const bool right_size = std::fabs(2.0 * atom->radius[i] - d) <= 1.0e-6 * d;
   if (!n.whole || !right_size) {
     const int nearest = MAX(1, static_cast<int>(std::lround(n.exact)));
@@ -41,7 +42,7 @@ int FixClusterBreakMerge::particle_count(int i)
                       atom->rmass[i], n.exact);
     error->one(
         FLERR, "Fix {} {}: cluster {} {}: {} particles at voidage {} need diameter {:.10g} and density {:.10g}",
-        style, id, atom->tag[i], fault, nearest, geometry.voidage, geometry.diameter(nearest), geometry.density());
+        style, id, atom->tag[i], fault, nearest, particles.voidage, particles.diameter(nearest), particles.density());
   }
   if (n.n > limits.hi)
     error->one(FLERR,
@@ -189,12 +190,13 @@ void FixClusterBreakMerge::average_cells()
 
 void FixClusterBreakMerge::find_stable_sizes()
 {
-  const double particle_mass = geometry.particle_mass();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) {
       stable[i] = needs[i] = 0;
       continue;
     }
+    const Kind &mine = kind(i);
+    const ClusterGeometry &particles = mine.rule.geometry;
     const double *x = atom->x[i];
     const Vec3 v = to_vec3(atom->v[i]);
     double gas = 0.0, contacts = 0.0, fluidization = 0.0;
@@ -206,9 +208,9 @@ void FixClusterBreakMerge::find_stable_sizes()
       const Vec3 slip = drag->in_plane(u - v);
       const double speed = norm(slip);
       const bool single = nst == NstReading::PARTICLE;
-      const double b = single ? drag_coefficient(drag->drag_law(), drag->gas_properties(), geometry.d_p, speed)
+      const double b = single ? drag_coefficient(drag->drag_law(), drag->gas_properties(), particles.d_p, speed)
                               : drag->cluster_coefficient(i, speed);
-      gas = n_st(b * slip, u, single ? particle_mass : atom->rmass[i]);
+      gas = n_st(b * slip, u, single ? particles.particle_mass() : atom->rmass[i]);
     }
     if (looks_at_power()) contacts = n_cc(power[i], atom->rmass[i], ncc_factor);
     if (term_mf) {
@@ -216,12 +218,12 @@ void FixClusterBreakMerge::find_stable_sizes()
       if (up != UpReading::OWN) {
         const double mass = averages->total(x, CellAverages::MASS);
         speed = averages->total(x, CellAverages::MASS_SPEED) / mass;
-        if (up == UpReading::SUPERFICIAL) speed *= mass / (geometry.rho_p * averages->cell_volume());
+        if (up == UpReading::SUPERFICIAL) speed *= mass / (particles.rho_p * averages->cell_volume());
       }
-      fluidization = n_smf(nsmf, u_mf, speed, eps_mf, gravity);
+      fluidization = n_smf(nsmf, mine.u_mf, speed, eps_mf, gravity);
     }
 
-    const StableSize size = rule.stable(gas + contacts - fluidization);
+    const StableSize size = mine.rule.stable(gas + contacts - fluidization);
     stable[i] = size.n;
     needs[i] = 0;
     double *row = array_atom[i];

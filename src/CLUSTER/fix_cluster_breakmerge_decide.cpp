@@ -83,7 +83,7 @@ void FixClusterBreakMerge::propose_merges()
     e.body = combine(a, b);
     if (atom->omega_flag)
       e.omega = merged_spin({a.mass, atom->radius[i], to_vec3(atom->omega[i])},
-                            {b.mass, atom->radius[j], to_vec3(atom->omega[j])}, 0.5 * geometry.diameter(n));
+                            {b.mass, atom->radius[j], to_vec3(atom->omega[j])}, 0.5 * geometry(i).diameter(n));
     e.stiffness = suitor[i].stiffness;
     e.energy_lost = energy_lost(a, b);
     events.push_back(std::move(e));
@@ -110,6 +110,7 @@ void FixClusterBreakMerge::choose_suitors()
     const int i = contact.i, j = contact.j;
     if (!(mask[i] & groupbit) || !(mask[j] & groupbit) || tag[i] == tag[j]) continue;
     if (stable[i] < 0 || stable[j] < 0) continue;
+    if (&kind(i) != &kind(j)) continue;    // a cluster holds one kind of particle
     const double slip = relative_slip(to_vec3(atom->v[i]), to_vec3(atom->v[j]));
     if (!(slip < merge_tolerance)) continue;
     const int n_l = MIN(stable[i], stable[j]);
@@ -133,11 +134,11 @@ void FixClusterBreakMerge::make_room()
   const int nall = atom->nlocal + atom->nghost;
   double **x = atom->x;
   const double *radius = atom->radius;
-  const double largest = 0.5 * geometry.diameter(limits.hi);
+  const double largest = 0.5 * largest_diameter();
 
   for (Event &e : events)
-    e.reach = e.plan.is_event() ? reach_of_break(e.plan, geometry, spacing, claim_max)
-                                : 0.5 * geometry.diameter(e.plan.n);
+    e.reach = e.plan.is_event() ? reach_of_break(e.plan, geometry(e.i), spacing, claim_max)
+                                : 0.5 * geometry(e.i).diameter(e.plan.n);
 
   Vec3 lo, hi;
   for (int axis = 0; axis < 3; axis++) {
@@ -178,14 +179,14 @@ void FixClusterBreakMerge::place(Event &e, const std::vector<Obstacle> &obstacle
     const Turn turn(atom->tag[e.i], 0, planar ? 2 : 1, update->ntimestep / nevery);
     const int n = count[e.i] + (e.j < 0 ? 0 : count[e.j]);
     const int wanted = e.plan.pieces();
-    e.placement = place_in_stages(e.plan, n, e.plan.n, limits.lo, geometry, *lattices, turn, spacing, e.reach,
+    e.placement = place_in_stages(e.plan, n, e.plan.n, limits.lo, geometry(e.i), *lattices, turn, spacing, e.reach,
                                   obstacles, walls);
     e.placement.shifted = e.placement.shifted || e.plan.pieces() < wanted;
     return;
   }
 
   // a merged cluster is larger than its parents' contact and may reach a third
-  const double merged_radius = 0.5 * geometry.diameter(e.plan.n);
+  const double merged_radius = 0.5 * geometry(e.i).diameter(e.plan.n);
   const double mi = atom->radius[e.i], mj = atom->radius[e.j];
   const Vec3 xi = to_vec3(atom->x[e.i]) - e.body.x, xj = to_vec3(atom->x[e.j]) - e.body.x;
   e.energy_born = 0.0;

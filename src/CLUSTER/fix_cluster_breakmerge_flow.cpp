@@ -110,7 +110,7 @@ void FixClusterBreakMerge::welcome()
   MPI_Allreduce(&some, &any, 1, MPI_INT, MPI_MAX, world);
   if (!any) return;
 
-  pairs.check_cutoff(fmt::format("Fix {} {}", style, id), groupbit, geometry.diameter(limits.hi));
+  pairs.check_cutoff(fmt::format("Fix {} {}", style, id), groupbit, largest_diameter());
   for (const int i : mine) {
     totals[FED] += particle_count(i);
     totals[CLUSTERS_FED]++;

@@ -45,8 +45,8 @@ void FixClusterBreakMerge::note_forces()
 void FixClusterBreakMerge::note_whole(int i)
 {
   const PowerParts power = power_parts(i);
-  if (rule.whole_only_by(PowerParts::ST, power, count[i], array_atom[i][1])) totals[WHOLE_BY_ST]++;
-  if (rule.whole_only_by(PowerParts::MF, power, count[i], array_atom[i][1])) totals[WHOLE_BY_MF]++;
+  if (kind(i).rule.whole_only_by(PowerParts::ST, power, count[i], array_atom[i][1])) totals[WHOLE_BY_ST]++;
+  if (kind(i).rule.whole_only_by(PowerParts::MF, power, count[i], array_atom[i][1])) totals[WHOLE_BY_MF]++;
 }
 
 /* ----------------------------------------------------------------------
@@ -59,8 +59,8 @@ void FixClusterBreakMerge::note_breakup(int i)
   totals[SHARE_ST] += power.share(PowerParts::ST);
   totals[SHARE_CC] += power.share(PowerParts::CC);
   totals[SHARE_MF] += power.share(PowerParts::MF);
-  if (rule.breaks_only_by(PowerParts::ST, power, count[i], array_atom[i][1])) totals[BREAKUPS_BY_ST]++;
-  if (rule.breaks_only_by(PowerParts::CC, power, count[i], array_atom[i][1])) totals[BREAKUPS_BY_CC]++;
+  if (kind(i).rule.breaks_only_by(PowerParts::ST, power, count[i], array_atom[i][1])) totals[BREAKUPS_BY_ST]++;
+  if (kind(i).rule.breaks_only_by(PowerParts::CC, power, count[i], array_atom[i][1])) totals[BREAKUPS_BY_CC]++;
 }
 
 /* ----------------------------------------------------------------------
@@ -70,6 +70,6 @@ void FixClusterBreakMerge::note_breakup(int i)
 int FixClusterBreakMerge::needed_to_merge(int i, int n) const
 {
   const PowerParts power = power_parts(i);
-  return (rule.merges_only_by(PowerParts::ST, power, n) ? NEEDS_ST : 0) |
-      (rule.merges_only_by(PowerParts::MF, power, n) ? NEEDS_MF : 0);
+  return (kind(i).rule.merges_only_by(PowerParts::ST, power, n) ? NEEDS_ST : 0) |
+      (kind(i).rule.merges_only_by(PowerParts::MF, power, n) ? NEEDS_MF : 0);
 }

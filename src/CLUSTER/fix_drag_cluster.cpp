@@ -151,7 +151,13 @@ void FixDragCluster::find_primary_particle()
                "Fix {} {}: unshielded {} needs the primary particle: define a fix cluster/breakmerge "
                "or give the keyword particle d_p rho_p",
                style, id, unshielded);
-  const auto &geometry = dynamic_cast<FixClusterBreakMerge *>(fixes[0])->cluster_geometry();
+  const auto *sizes = dynamic_cast<FixClusterBreakMerge *>(fixes[0]);
+  if (!sizes->one_kind())
+    error->all(FLERR,
+               "Fix {} {}: unshielded {} knows one kind of primary particle only, but fix {} {} has several: use "
+               "unshielded 0 or give the keyword particle d_p rho_p",
+               style, id, unshielded, sizes->style, sizes->id);
+  const auto &geometry = sizes->cluster_geometry(1);
   particle_d = geometry.d_p;
   particle_mass = geometry.particle_mass();
 }

@@ -49,16 +49,15 @@ void FixClusterBreakMergeLiggghts::pre_exchange()
   FixClusterBreakMerge::pre_exchange();
   Fix::comm->maxexchange_fix = MAX(Fix::comm->maxexchange_fix, maxexchange);
   if (!events_now) return;
-  const double density = cluster_geometry().density();
   for (int i = 0; i < atom->nlocal; i++)
-    if (atom->mask[i] & groupbit) atom->density[i] = density;
+    if (atom->mask[i] & groupbit) atom->density[i] = cluster_geometry(atom->type[i]).density();
 }
 
 /* ----------------------------------------------------------------------
    the largest radius that merging may lead to: pair style and neighbor lists make room for it
 ------------------------------------------------------------------------- */
 
-double FixClusterBreakMergeLiggghts::max_rad(int)
+double FixClusterBreakMergeLiggghts::max_rad(int type)
 {
-  return 0.5 * cluster_geometry().diameter(size_limits().hi);
+  return 0.5 * cluster_geometry(type).diameter(size_limits().hi);
 }
