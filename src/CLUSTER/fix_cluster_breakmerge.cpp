@@ -31,15 +31,15 @@ static constexpr double MOST_SITES = 1.0e7;    // of a lattice for fragments: 0.
 /* ---------------------------------------------------------------------- */
 
 FixClusterBreakMerge::FixClusterBreakMerge(LAMMPS *lmp, int narg, char **arg) :
-    EngineFix(lmp, narg, arg), kinds(1), kind_of_type(atom->ntypes + 1, 0), k_given(false), k_from_emms(false), k_value(0.0),
-    umf_value(0.0), umf_from_wen_yu(true), eps_mf(0.5), cells_given(false), cells{1, 1, 1},
+    EngineFix(lmp, narg, arg), kinds(1), kind_of_type(atom->ntypes + 1, 0), k_given(false), k_from_emms(false),
+    k_value(0.0), umf_value(0.0), umf_from_wen_yu(true), eps_mf(0.5), cells_given(false), cells{1, 1, 1},
     nst(NstReading::PARTICLE), nsmf(NsmfReading::EMMS), up(UpReading::OWN), ncc_factor(1.0), term_st(true),
     term_cc(true), term_mf(true), test(ALWAYS), hysteresis(0.26), breaking(true), merging(true),
     break_refused(false), merge_tolerance(0.01), gravity(9.81), gravity_axis(2), claim_max(0.0), planar(true),
-    spacing(2.0), drag(nullptr), pairs(lmp), count(nullptr), nmax_check(0), stable(nullptr),
-    power(nullptr), ncontacts(nullptr), contact_force(0.0), suitor(nullptr), needs(nullptr), room(nullptr),
-    proceeds(nullptr), comm_stage(CONTACTS), totals{}, newborn_tags(lmp), output{}, output_step(-1),
-    start_counted(false), merging_now(false)
+    spacing(2.0), drag(nullptr), pairs(lmp), count(nullptr), nmax_check(0), stable(nullptr), power(nullptr),
+    ncontacts(nullptr), contact_force(0.0), suitor(nullptr), needs(nullptr), room(nullptr), proceeds(nullptr),
+    comm_stage(CONTACTS), totals{}, newborn_tags(lmp), output{}, output_step(-1), start_counted(false),
+    merging_now(false)
 {
   force_reneighbor = 1;
   next_reneighbor = -1;
@@ -191,10 +191,11 @@ void FixClusterBreakMerge::parse(StyleArguments &args)
   if (term_mf && up == UpReading::SUPERFICIAL)
     for (const Kind &k : kinds)
       if (k.rule.geometry.rho_p != kinds[0].rule.geometry.rho_p)
-        error->all(FLERR,
-                   "Illegal fix {} command: up superficial knows one density of primary particles only, not the {} and "
-                   "{} of keyword kind",
-                   style, kinds[0].rule.geometry.rho_p, k.rule.geometry.rho_p);
+        error->all(
+            FLERR,
+            "Illegal fix {} command: up superficial knows one density of primary particles only, not the {} and "
+            "{} of keyword kind",
+            style, kinds[0].rule.geometry.rho_p, k.rule.geometry.rho_p);
 }
 
 /* ----------------------------------------------------------------------

@@ -40,9 +40,10 @@ int FixClusterBreakMerge::particle_count(int i)
                       n.n)
         : fmt::format("has mass {:.10g}, which is {:.2f} primary particles, not a whole number within 1e-6",
                       atom->rmass[i], n.exact);
-    error->one(
-        FLERR, "Fix {} {}: cluster {} {}: {} particles at voidage {} need diameter {:.10g} and density {:.10g}",
-        style, id, atom->tag[i], fault, nearest, particles.voidage, particles.diameter(nearest), particles.density());
+    error->one(FLERR,
+               "Fix {} {}: cluster {} {}: {} particles at voidage {} need diameter {:.10g} and density {:.10g}",
+               style, id, atom->tag[i], fault, nearest, particles.voidage, particles.diameter(nearest),
+               particles.density());
   }
   if (n.n > limits.hi)
     error->one(FLERR,

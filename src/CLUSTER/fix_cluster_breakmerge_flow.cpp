@@ -30,18 +30,18 @@ void FixClusterBreakMerge::check_order()
   bool after_me = false;
   for (const auto &fix : modify->get_fix_list()) {
     const bool history = utils::strmatch(fix->id, "^NEIGH_HISTORY");
-    if (fix == this)
-      after_me = true;
+    if (fix == this) after_me = true;
     else if (after_me && history)
       error->all(FLERR,
                  "Fix {} {} must be defined after the pair_style command: contact history is saved "
                  "in the order of definition",
                  style, id);
     else if (!after_me && !history && fix->force_reneighbor && (fix->setmask() & PRE_EXCHANGE))
-      error->all(FLERR,
-                 "Fix {} {} must be defined before fix {} {}: breakups and merges of a step are carried out before "
-                 "other fixes add, delete or migrate clusters",
-                 style, id, fix->style, fix->id);
+      error->all(
+          FLERR,
+          "Fix {} {} must be defined before fix {} {}: breakups and merges of a step are carried out before "
+          "other fixes add, delete or migrate clusters",
+          style, id, fix->style, fix->id);
   }
 }
 

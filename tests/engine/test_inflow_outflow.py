@@ -95,8 +95,9 @@ def test_over_a_restart(tmp_path, np_):
 
 
 def test_ids_grow_whatever_the_feed_says(tmp_path):
-    """fix deposit counts up from where it began (id next), fix cluster/breakmerge numbers newborns: without renumbering
-    both would give out the same IDs."""
+    """Fix deposit counts up from where it began (id next), fix cluster/breakmerge numbers newborns: without renumbering
+    both would give out the same IDs.
+    """
     script = open_ended(tmp_path).replace("near 1.4e-3", "id next near 1.4e-3")
     r = run(tmp_path, script + "run 400\n" + write("f_size[1]", name="a.dump") + "run 200\n" + END)
     before, after = r.dump("a.dump")["id"], r.dump()["id"]
@@ -107,18 +108,21 @@ def test_ids_grow_whatever_the_feed_says(tmp_path):
 
 @pytest.mark.parametrize("np_", [1, 2])
 def test_poured(tmp_path, np_):
-    """fix pour brings a distribution of diameters by itself, in lumps; three-dimensional, on a floor."""
+    """Fix pour brings a distribution of diameters by itself, in lumps; three-dimensional, on a floor."""
     d = [diameter(n) for n in SIZES]
     script = (
         "units si\natom_style sphere\natom_modify map hash sort 0 0\nboundary p p f\ncomm_modify vel yes cutoff 5.7e-3\n"
-        "neighbor 0.5e-3 bin\nregion box block 0 0.011 0 0.011 0 0.016\ncreate_box 1 box\n" + pair()
+        "neighbor 0.5e-3 bin\nregion box block 0 0.011 0 0.011 0 0.016\ncreate_box 1 box\n"
+        + pair()
         + "fix move all nve/sphere\nfix fall all gravity 9.81 vector 0 0 -1\n"
         "fix floor all wall/gran granular hooke 10 0.3 tangential linear_history 8.57 1.0 0.33 damping coeff_restitution "
         "zplane 0 NULL\nfix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 1\n"
         "fix size all cluster/breakmerge 5 1e-4 2000 drag drag K 0.02 merge 0.1 plane none\n"
         "region hopper block 0 0.011 0 0.011 0.010 0.015\n"
         f"fix feed all pour 60 1 5 region hopper vol 0.1 100 diam poly 2 {d[0]!r} 0.5 {d[1]!r} 0.5 dens 1000 1000 vel 0 0 0 0 -1\n"
-        + TABLE + "run 1200\n" + END
+        + TABLE
+        + "run 1200\n"
+        + END
     )
     r = run(tmp_path, script, np_)
     last = r.table()[-1]
@@ -160,4 +164,3 @@ def test_fed_clusters_are_looked_at(tmp_path):
     (tmp_path / "100.mol").write_text(template(500))
     r = run(tmp_path, script.replace(SIZE, SIZE.strip() + " limits 3 450\n") + "run 100\n", check=False)
     assert r.code != 0 and "holds 500 primary particles, above the upper limit 450" in r.output, r.output[-800:]
-

@@ -91,7 +91,8 @@ def test_powers_of_each_kind(tmp_path):
     script = (
         box() + pair_of((1, 2), d_p, rho) + pair() + "fix move all nve\n"
         f"fix drag all drag/cluster {rho_g} {nu} velocity 0 0 2 law stokes\n"
-        f"fix size all cluster/breakmerge 1 {D_P} {RHO_P} drag drag K 1 kind 2 {FINE} {HEAVY} break no merge no\nrun 0\n" + END
+        f"fix size all cluster/breakmerge 1 {D_P} {RHO_P} drag drag K 1 kind 2 {FINE} {HEAVY} break no merge no\nrun 0\n"
+        + END
     )
     row = run(tmp_path, script).dump()
     for k in (0, 1):
@@ -118,7 +119,10 @@ def test_powers_of_each_kind(tmp_path):
 )  # fmt: skip
 def test_refusals(tmp_path, drag, size, message):
     script = (
-        box() + pair_of((1, 2)) + pair() + f"fix move all nve\nfix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 2 {drag}\n"
+        box()
+        + pair_of((1, 2))
+        + pair()
+        + f"fix move all nve\nfix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 2 {drag}\n"
         f"fix size all cluster/breakmerge 1 {D_P} {RHO_P} drag drag K 1 {size}\nrun 0\n"
     )
     r = run(tmp_path, script, check=False)
