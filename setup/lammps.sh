@@ -13,25 +13,25 @@ lammps_options=(
   -DWITH_JPEG=off -DWITH_PNG=off -DWITH_FFMPEG=off -DWITH_GZIP=off -DDOWNLOAD_POTENTIALS=off
 )
 
-# use_lammps pinned|newest
+# use_lammps pinned|newest|portable: for this machine's processor, or (portable, for packages) for any of its kind
 use_lammps() {
   if [[ ${LAMMPS_SOURCE_DIR:-}${LAMMPS_EXE:-} ]]; then
     check_own_lammps
     return
   fi
-  local suite=trixie tarball=$lammps_tarball home
-  if [[ $1 == newest ]]; then
-    suite=sid
-    tarball=$(newest_tarball)
-  fi
+  local suite=trixie tarball=$lammps_tarball options=("${lammps_options[@]}") home
+  case $1 in
+    newest) suite=sid tarball=$(newest_tarball) ;;
+    portable) options=("${options[@]/-march=native /}") ;;
+  esac
   # Whatever changes the executable is in the key: version, options, compiler, what `native` is, MPI.
   home=$cache/lammps/${tarball%.orig*}-$({
-    echo "$tarball ${lammps_options[*]} ${CXX:-c++} ${CXXFLAGS:-} ${LDFLAGS:-}"
+    echo "$tarball ${options[*]} ${CXX:-c++} ${CXXFLAGS:-} ${LDFLAGS:-}"
     "${CXX:-c++}" -march=native -O3 -dM -E -x c++ /dev/null
     mpicxx -show
     mpirun --version
   } 2>&1 | checksum)
-  [[ -d $home ]] || with_lock "$home.lock" build_lammps "$suite" "$tarball" "$home"
+  [[ -d $home ]] || with_lock "$home.lock" build_lammps "$suite" "$tarball" "$home" "${options[@]}"
   LAMMPS_SOURCE_DIR=$home/src LAMMPS_EXE=$home/lmp
 }
 
@@ -80,6 +80,7 @@ tarball_whole() {
 # An interrupted build goes on from where it stopped.
 build_lammps() {
   local suite=$1 tarball=$2 home=$3 part=$3.part log=$3.log
+  shift 3
   [[ ! -d $home ]] || return 0
   need_space "$cache" 1500 "the build of LAMMPS"
   if [[ ! -e $part/unpacked ]]; then
@@ -90,7 +91,7 @@ build_lammps() {
   local version
   version=$(lammps_date "$part/source/src/version.h")
   say "building LAMMPS $version (once; about 10 minutes on two cores)"
-  compile_lammps "$part/source" "$part/build" "$log"
+  compile_lammps "$part/source" "$part/build" "$log" "$@"
   rm "$part/unpacked"
   mv "$part/build/lmp" "$part/lmp"
   mv "$part/source/src" "$part/src"
@@ -114,11 +115,11 @@ unpack_lammps() {
   rm -rf "$folder.top"
 }
 
-# compile_lammps SOURCE BUILD LOG [options]
+# compile_lammps SOURCE BUILD LOG options
 compile_lammps() {
   local source=$1 build=$2 log=$3
   shift 3
-  cmake -S "$source/cmake" -B "$build" -G Ninja "${lammps_options[@]}" "$@" >"$log" 2>&1 </dev/null ||
+  cmake -S "$source/cmake" -B "$build" -G Ninja "$@" >"$log" 2>&1 </dev/null ||
     die_with_log "$log" "LAMMPS could not be configured."
   nice cmake --build "$build" --target lmp 2>&1 </dev/null | tee -a "$log" | show_progress ||
     die_with_log "$log" "LAMMPS could not be built. Try again: it goes on from here."

@@ -31,5 +31,5 @@ build_static() {
     touch "$static/unpacked"
   fi
   cp -ru "$root/src/CLUSTER" "$tree/src/"
-  compile_lammps "$tree" "$static" "$log" -DPKG_CLUSTER=on -DCMAKE_CXX_FLAGS=-ffp-contract=off
+  compile_lammps "$tree" "$static" "$log" "${lammps_options[@]}" -DPKG_CLUSTER=on -DCMAKE_CXX_FLAGS=-ffp-contract=off
 }

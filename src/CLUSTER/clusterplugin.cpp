@@ -16,8 +16,10 @@
 #include "pair_gran_cluster.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "error.h"
 #include "lammps.h"
+#include "utils.h"
 #include "version.h"
 
 #include <cstring>
@@ -39,6 +41,9 @@ static AtomVec *create_atom_vec(LAMMPS *lmp)
   return new AtomVecCluster(lmp);
 }
 
+// for those who look into the file: strings, nm, dlsym
+extern "C" const char clusterdem_version[] = CLUSTER_VERSION;
+
 extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
 {
   auto lammps = (LAMMPS *) lmp;
@@ -48,11 +53,13 @@ extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
                        "rebuild it against the source of this LAMMPS",
                        LAMMPS_VERSION, lammps->version);
 
+  if (lammps->comm->me == 0) utils::logmesg(lammps, "Cluster DEM {} for LAMMPS\n", clusterdem_version);
+
   auto register_style = (lammpsplugin_regfunc) regfunc;
   lammpsplugin_t plugin;
   plugin.version = LAMMPS_VERSION;
   plugin.style = "fix";
-  plugin.author = "Cluster DEM developers";
+  plugin.author = "Cluster DEM developers, version " CLUSTER_VERSION;
   plugin.handle = handle;
 
   const struct {

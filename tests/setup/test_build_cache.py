@@ -69,6 +69,19 @@ def test_key_tells_builds_apart(machine):
     assert len(keys) == 4
 
 
+def test_portable_engine_is_another_build_without_native_code(machine):
+    (machine.folder / "fast").touch()
+    body = FAKES.replace(
+        "use_lammps pinned",
+        "use_lammps pinned; use_lammps portable".replace(
+            "; ", "\necho $LAMMPS_EXE\nunset LAMMPS_SOURCE_DIR LAMMPS_EXE\n"
+        ),
+    )
+    body += "echo $LAMMPS_EXE\n"
+    native, portable = machine.bash(body).communicate(timeout=60)[0].splitlines()[-2:]
+    assert native != portable
+
+
 def archives(machine, files):
     for name, text in files.items():
         path = machine.folder / name

@@ -7,7 +7,7 @@ from .nonuniformity import Uniformity, measure, strips
 from .reader import read_dumps, read_file
 from .sizes import Sizes, class_shares, size_summary
 
-__version__ = "0.1.0"
+__version__ = "0.1.0"  # of the whole project: CMake reads it here
 
 __all__ = [
     "Box",
