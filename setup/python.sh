@@ -18,7 +18,7 @@ build_python() {
   [[ -e ${pins[0]} ]] || pins=()
   now=$(cat "$root/python/pyproject.toml" "${pins[@]}" "$root/setup/python.sh" <(echo "$root") | checksum)
   if [[ $(cat "$stamp" 2>/dev/null) != "$now" ]]; then
-    need_space "$root" 1500 "the Python environment"
+    need_space "$root" 2500 "the Python environment"
     say "installing the Python package into build/venv"
     local python
     python=$(find_python) || die \
@@ -35,7 +35,7 @@ build_python() {
 
 # requirements.txt pins versions (a constraint); requirements-test.txt names what the tests need.
 pip_install() {
-  local python=$root/python arguments=(-e "$root/python[mpi,calibrate]")
+  local python=$root/python arguments=(-e "$root/python[mpi,calibrate,gas]")
   [[ ! -e $python/requirements.txt ]] || arguments+=(-c "$python/requirements.txt")
   if [[ -e $python/requirements-test.txt ]]; then
     arguments+=(-r "$python/requirements-test.txt")

@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from . import calibrate, compare, film, map, profile, report, scatter, sizes, start, table, trade, vtk
+from . import calibrate, compare, film, gas, map, profile, report, scatter, sizes, start, table, trade, vtk
 
-COMMANDS = (map, sizes, compare, report, profile, scatter, film, vtk, table, start, trade, calibrate)
+COMMANDS = (map, sizes, compare, report, profile, scatter, film, vtk, table, start, gas, trade, calibrate)

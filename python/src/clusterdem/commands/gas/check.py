@@ -1,0 +1,42 @@
+"""Check gas field files: numbers, units, cover of the box, divergence, times of a series.
+
+Prints what each file holds. Warnings are for the eye; an error (a number that is not finite, a box that is not covered,
+a time that is missing) ends with exit code 2, as the engine would end. Files of different grids are no series: check
+them one by one.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from ...gas.checks import check_cover, check_field, check_series, describe, describe_divergence, refuse
+from ...gas.legacy import read_field
+from .common import add_box, box_of, box_of_dump, checked_box
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help="gas field files; several are a series")
+    add_box(parser, "of the run")
+    parser.add_argument("--dump", type=Path, metavar="DUMP", help="take the box from a dump of the run instead")
+
+
+def run(options: argparse.Namespace) -> None:
+    numbers = checked_box(options)
+    box = box_of_dump(options.dump) if options.dump else box_of(numbers, options.periodic) if numbers else None
+    found, fields = [], []
+    for path in options.files:
+        gas = read_field(path)
+        print(describe(gas))
+        own = check_field(gas)
+        if all(finding.level != "error" for finding in own):
+            print(describe_divergence(gas))
+        if box is not None:
+            own += check_cover(gas, box)
+        found += own
+        fields.append(gas)
+    found += check_series(fields)
+    for finding in found:
+        print(finding)
+    refuse(found)
+    print("no errors" if found else "nothing found")

@@ -1,0 +1,1 @@
+"""Gas fields for ``fix drag/cluster … field``: made from CFD results, checked, drawn."""

@@ -1,0 +1,250 @@
+"""What can be wrong with gas fields: numbers, units, cover of the box, times.
+
+The rules are those of ``fix drag/cluster … field``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError
+from ..frame import Box, Floats
+from .divergence import divergence
+from .field import NAMES, UNITS, VECTORS, GasField
+
+SOUND = 343.0
+"""Speed of sound in air at 20 °C (m/s)."""
+DENSITIES = (0.05, 200.0)
+"""From hot or thin gas to 100 bar and more (kg/m³)."""
+KINEMATIC = (1e-7, 1e-2)
+"""From dense to thin, hot gas (m²/s); air at 20 °C and 1 bar: 1.5e-5."""
+DYNAMIC = (5e-6, 2e-4)
+"""Gases up to 2000 K or so (Pa·s), at any pressure; air at 20 °C: 1.8e-5."""
+OTHER_UNIT = 100.0
+"""Box and field that differ in length by this factor are in different units."""
+MUCH_DIVERGENCE = 0.1
+"""r.m.s. div u · L / U from which it is worth a warning: the gas gains or loses a tenth on its way."""
+SAME = 1e-6
+"""Relative difference below which lengths, planes and grids are the same."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing found.
+
+    Parameters
+    ----------
+    level : {"error", "warning"}
+        An error stops a run, or must.
+    path : str
+        The file.
+    rule : str
+        What, in one line.
+    """
+
+    level: str
+    path: str
+    rule: str
+
+    def __str__(self) -> str:
+        return f"{self.path}: {self.level}: {self.rule}"
+
+
+def refuse(findings: Sequence[Finding]) -> None:
+    """Raise the first error among the findings, if there is one."""
+    errors = [finding for finding in findings if finding.level == "error"]
+    if errors:
+        more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
+        raise InputError(errors[0].path, errors[0].rule + more)
+
+
+def check_field(gas: GasField) -> list[Finding]:
+    """Numbers and units of one field."""
+    errors = _axes(gas) + [rule for name in NAMES if name in gas for rule in _numbers(gas, name)]
+    if errors:
+        return [Finding("error", gas.path, rule) for rule in errors]
+    return [Finding("warning", gas.path, rule) for rule in (*_units(gas), *_divergence(gas))]
+
+
+def _axes(gas: GasField) -> list[str]:
+    rules = []
+    for name, axis in zip("xyz", gas.axes):
+        if not np.all(np.isfinite(axis)):
+            rules.append(f"{name} coordinates must be finite")
+        elif axis.size > 1 and np.any(np.diff(axis) <= 0):
+            k = int(np.argmax(np.diff(axis) <= 0))
+            rules.append(f"{name} coordinates must increase: {axis[k]:.9g}, then {axis[k + 1]:.9g}")
+    return rules
+
+
+def _numbers(gas: GasField, name: str) -> list[str]:
+    values = gas[name]
+    bad = ~np.isfinite(values)
+    if bad.any():
+        points = bad.any(axis=-1) if name in VECTORS else bad
+        return [
+            f"array {name} must be finite: {int(points.sum()):,} points are not, the first at {_first(gas, points)}"
+        ]
+    low = values < 0 if name == "fluctuation" else values <= 0
+    if name != "velocity" and low.any():
+        points = low.any(axis=-1) if name in VECTORS else low
+        rule = "must not be negative" if name == "fluctuation" else "must be above zero"
+        return [f"array {name} {rule}: {values[low].flat[0]:.6g} {UNITS[name]} at {_first(gas, points)}"]
+    return []
+
+
+def _first(gas: GasField, points: Any) -> str:
+    return gas.place(int(np.argmax(points)))
+
+
+def _units(gas: GasField) -> list[str]:
+    rules = []
+    fastest = int(np.argmax(gas.speed))
+    speed = float(gas.speed.flat[fastest])
+    if speed > SOUND:
+        rule = f"the velocity reaches {speed:.4g} m/s at {gas.place(fastest)}, faster than sound ({SOUND:g} m/s)"
+        rules.append(f"{rule}: was it in mm/s or cm/s? (--velocity-unit)")
+    elif speed == 0:
+        rules.append("the gas is at rest everywhere")
+    for name, (least, most) in (("density", DENSITIES), ("viscosity", KINEMATIC)):
+        if name in gas:
+            low, high = float(gas[name].min()), float(gas[name].max())
+            if low < least or high > most:
+                found = f"{name} is {low:.4g} to {high:.4g} {UNITS[name]}, that of a gas is {least:g} to {most:g}"
+                rules.append(found + (": is it the kinematic one, in SI units?" if name == "viscosity" else ""))
+    if "density" in gas and "viscosity" in gas:
+        dynamic = gas["density"] * gas["viscosity"]
+        low, high = float(dynamic.min()), float(dynamic.max())
+        if low < DYNAMIC[0] or high > DYNAMIC[1]:
+            rules.append(
+                f"density times viscosity is {low:.4g} to {high:.4g} Pa s, that of a gas is {DYNAMIC[0]:g} to "
+                f"{DYNAMIC[1]:g}: viscosity must be the kinematic one, in m^2/s (--dynamic-viscosity converts)"
+            )
+    return rules
+
+
+def _divergence(gas: GasField) -> list[str]:
+    found = divergence(gas)
+    if found.relative <= MUCH_DIVERGENCE:
+        return []
+    what = "div(rho u)/rho" if "density" in gas else "div u"
+    return [
+        f"{what} is {found.rms:.3g} 1/s r.m.s., {found.relative:.2g} of the speed over the length, and "
+        f"{found.most:.3g} at {gas.place(found.where)}: not conserved as it stands (right for the superficial velocity "
+        "in a bed that changes, and for a plane cut out of a 3-D flow)"
+    ]
+
+
+def check_cover(gas: GasField, box: Box) -> list[Finding]:
+    """Whether a field covers a box, by the edge rules of the fix: periodic where the box is, else clamped."""
+    found = []
+    for k, name in enumerate("xyz"):
+        axis = gas.axes[k]
+        if axis.size > 1:
+            rule = _periodic(gas, k, box) if box.periodic[k] else _clamped(name, axis, box.lo[k], box.hi[k])
+            found += [Finding(level, gas.path, text) for level, text in rule]
+    return found
+
+
+def _unit_hint(span: float, length: float) -> str:
+    if length > OTHER_UNIT * span or span > OTHER_UNIT * length:
+        return f": is it in mm? (the field is {span / length:.3g} times as long as the box; --length-unit)"
+    return ""
+
+
+def _clamped(name: str, axis: Floats, low: float, high: float) -> list[tuple[str, str]]:
+    first, last = float(axis[1] - axis[0]), float(axis[-1] - axis[-2])
+    span = float(axis[-1] - axis[0])
+    if low >= axis[0] - first * (1 + SAME) and high <= axis[-1] + last * (1 + SAME):
+        hint = _unit_hint(span, high - low)
+        return [("warning", f"along {name} it reaches from {axis[0]:.6g} to {axis[-1]:.6g} m{hint}")] if hint else []
+    hint = _unit_hint(span, high - low) or f": more than a spacing is missing; 'edge {name} clamp' would accept it"
+    text = f"along {name} it reaches from {axis[0]:.6g} to {axis[-1]:.6g} m, the box from {low:.6g} to {high:.6g} m"
+    return [("error", text + hint)]
+
+
+def _periodic(gas: GasField, k: int, box: Box) -> list[tuple[str, str]]:
+    name, axis, period = "xyz"[k], gas.axes[k], box.lengths[k]
+    span = float(axis[-1] - axis[0])
+    if span > period * (1 + SAME):
+        text = f"along {name} it is {span:.6g} m long, longer than the period of the box, {period:.6g} m"
+        return [("error", text + _unit_hint(span, period))]
+    gap = period - span
+    if gap <= SAME * period:
+        for array, values in gas.arrays.items():
+            ends = np.take(values, 0, k), np.take(values, -1, k)
+            apart = float(np.max(np.abs(ends[0] - ends[1])))
+            if apart > SAME * max(float(np.max(np.abs(values))), math.ulp(0.0)):
+                text = (
+                    f"array {array}: along {name} the last plane is the first of the next period, but differs by up to"
+                )
+                return [("error", f"{text} {apart:.3g} {UNITS[array]}: clamp it ('edge {name} clamp') or leave it out")]
+    elif gap > (1 + SAME) * float(np.max(np.diff(axis))):
+        text = f"along {name} {gap:.6g} m of the period of {period:.6g} m have no points and are interpolated"
+        return [("warning" if not _unit_hint(span, period) else "error", text + _unit_hint(span, period))]
+    return []
+
+
+def check_series(fields: Sequence[GasField]) -> list[Finding]:
+    """Whether files make a series: one grid, the same arrays, a time each, no frame missing."""
+    found: list[Finding] = []
+    if len(fields) < 2:
+        return found
+    first = fields[0]
+    for gas in fields:
+        if math.isnan(gas.time):
+            found.append(Finding("error", gas.path, "a file of a series must have its TIME (--time)"))
+        if set(gas.arrays) != set(first.arrays):
+            text = f"has the arrays {', '.join(gas.arrays)}, but {first.path} has {', '.join(first.arrays)}"
+            found.append(Finding("error", gas.path, text))
+        for name, a, b in zip("xyz", gas.axes, first.axes):
+            if a.size != b.size or float(np.max(np.abs(a - b))) > SAME * max(float(b[-1] - b[0]), 1e-12):
+                found.append(Finding("error", gas.path, f"has another grid along {name} than {first.path}"))
+    if found:
+        return found
+    ordered = sorted(fields, key=lambda gas: gas.time)
+    times = np.array([gas.time for gas in ordered])
+    steps = np.diff(times)
+    for gas, before, step in zip(ordered[1:], ordered, steps):
+        if step == 0:
+            found.append(Finding("error", gas.path, f"has the same time as {before.path}, {gas.time:.9g} s"))
+        elif step > 1.5 * float(np.median(steps)):
+            text = (
+                f"comes {step:.6g} s after {before.path}, where {np.median(steps):.6g} s is usual: is a frame missing?"
+            )
+            found.append(Finding("warning", gas.path, text))
+    return found
+
+
+def describe(gas: GasField) -> str:
+    """A few lines: extent and arrays."""
+    parts = []
+    for name, axis in zip("xyz", gas.axes):
+        if axis.size == 1:
+            parts.append(f"{name} uniform")
+        else:
+            parts.append(f"{name} {axis[0]:.6g} to {axis[-1]:.6g} m ({axis.size})")
+    time = "" if math.isnan(gas.time) else f"; t = {gas.time:.9g} s"
+    lines = [f"{gas.path}: {', '.join(parts)}{time}"]
+    for name, values in gas.arrays.items():
+        if name in VECTORS:
+            size = np.linalg.norm(values, axis=-1)
+            mean = ", ".join(f"{v:.4g}" for v in values.reshape(-1, 3).mean(axis=0))
+            lines.append(f"  {name}: {size.min():.4g} to {size.max():.4g} {UNITS[name]}, mean ({mean})")
+        else:
+            lines.append(f"  {name}: {values.min():.4g} to {values.max():.4g} {UNITS[name]}, mean {values.mean():.4g}")
+    return "\n".join(lines)
+
+
+def describe_divergence(gas: GasField) -> str:
+    """A line about a field without errors."""
+    found = divergence(gas)
+    return (
+        f"  divergence: {found.rms:.3g} 1/s r.m.s. ({found.relative:.2g} of the speed over the length), "
+        f"at most {found.most:.3g} at {gas.place(found.where)}"
+    )
