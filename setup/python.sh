@@ -35,7 +35,7 @@ build_python() {
 
 # requirements.txt pins versions (a constraint); requirements-test.txt names what the tests need.
 pip_install() {
-  local python=$root/python arguments=(-e "$root/python[mpi,calibrate,gas]")
+  local python=$root/python arguments=(-e "$root/python[mpi,gas]")
   [[ ! -e $python/requirements.txt ]] || arguments+=(-c "$python/requirements.txt")
   if [[ -e $python/requirements-test.txt ]]; then
     arguments+=(-r "$python/requirements-test.txt")

@@ -39,7 +39,7 @@ class Growth:
 def study_of(values, parameters, starts=None, trials=60, **stages):
     targets = tuple(Target("clusters", t, 0, value, error=0.05) for t, value in zip(TIMES, values))
     case = Case(Path("s.toml"), Path("in"), "growth", targets, 1.0, 1.0, {}, 1)
-    search = Search({}, (1, 2, 3), None, trials, 2, 0.3)
+    search = Search({}, (1, 2, 3), None, trials)
     return Calibration(Path("s.toml"), (case,), parameters, starts or {}, search, **stages)
 
 

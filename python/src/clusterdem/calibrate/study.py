@@ -19,6 +19,7 @@ TARGET_KEYS = ("quantity", "time", "part", EQUAL, BELOW, ABOVE, "error", "weight
 PARAMETER_KEYS = ("name", "low", "high", "log", "choices")
 STAGE_KEYS = ("variables", "seeds", "limit")
 FEWEST_SEEDS = 2
+FEWEST_POINTS = 4
 
 
 @dataclass(frozen=True)
@@ -83,14 +84,14 @@ class Search(Stage):
     ----------
     trials : int
         Points tried, the starts included.
-    batch : int
-        Points drawn together, so that their runs can go side by side.
+    population : int, optional
+        Points of a generation, whose runs can go side by side; by default as CatCMA has it, 4 + 3 ln(parameters).
     promote : float
         Share of the trials that go on from the first seed to all seeds.
     """
 
     trials: int = 60
-    batch: int = 2
+    population: int | None = None
     promote: float = 0.3
 
 
@@ -181,7 +182,7 @@ class _Reader(StudyReader):
             search.seeds,
             search.limit,
             self.count("search.trials", given.get("trials", Search.trials)),
-            self.count("search.batch", given.get("batch", Search.batch)),
+            self.population(given.get("population")),
             self.share("search.promote", given.get("promote", Search.promote)),
         )
         return Calibration(
@@ -357,7 +358,7 @@ class _Reader(StudyReader):
     def stage(self, name: str, over: Variables) -> Stage:
         given = self.subtable(name)
         keys = {
-            "search": (*STAGE_KEYS, "trials", "batch", "promote"),
+            "search": (*STAGE_KEYS, "trials", "population", "promote"),
             "local": (*STAGE_KEYS, "step", "polish"),
             "confirm": (*STAGE_KEYS, "best", "starts"),
         }[name]
@@ -371,6 +372,11 @@ class _Reader(StudyReader):
             self.seeds(seeds, FEWEST_SEEDS, f"{name}.seeds"),
             None if limit is None else self.count(f"{name}.limit", limit),
         )
+
+    def population(self, given: object) -> int | None:
+        if given is not None and self.count("search.population", given) < FEWEST_POINTS:
+            raise self.refuse("search.population", given, f"a generation needs {FEWEST_POINTS} points or more")
+        return None if given is None else self.count("search.population", given)
 
     def local(self, stage: Stage) -> Local:
         given = self.subtable("local")
