@@ -272,9 +272,7 @@ void FixClusterBreakMerge::make_rules()
 {
   for (Kind &kind : kinds) {
     const ClusterGeometry &particles = kind.rule.geometry;
-    kind.u_mf = umf_from_wen_yu && drag
-        ? umf_wen_yu(particles.d_p, particles.rho_p, drag->gas_properties(), gravity)
-        : umf_value;
+    kind.u_mf = umf_from_wen_yu && drag ? umf_in(drag->gas_properties(), particles) : umf_value;
     const double k = k_from_emms ? k_emms(particles.d_p, k_value, kind.u_mf, eps_mf, gravity) : k_value;
     if (!(k > 0.0))
       error->all(FLERR,

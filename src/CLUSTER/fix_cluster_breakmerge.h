@@ -81,7 +81,7 @@ class FixClusterBreakMerge : public EngineFix {
   // clusters of one kind of primary particle; kind 0 is that of the command, the others those of keyword kind
   struct Kind {
     ClusterDEM::SizeRule rule;
-    double u_mf;
+    double u_mf;    // in a gas of uniform properties
   };
   std::vector<Kind> kinds;
   std::vector<int> kind_of_type;    // by atom type
@@ -210,6 +210,8 @@ class FixClusterBreakMerge : public EngineFix {
   void measure();
   void add_up_contacts();
   void average_cells();
+  double umf_in(const ClusterDEM::Gas &gas, const ClusterDEM::ClusterGeometry &particles) const;
+  bool local_umf() const;
   void find_stable_sizes();
   bool contact_ended(int i);
   void exchange(int stage, int size);

@@ -111,7 +111,7 @@ void FixClusterBreakMerge::measure()
     if (atom->mask[i] & groupbit) particle_count(i);
   contact_force = 0.0;
   if (looks_at_contacts()) add_up_contacts();
-  if (term_st) drag->prepare();
+  if (term_st || local_umf()) drag->prepare();
   if (averages) average_cells();
   find_stable_sizes();
 }
@@ -167,6 +167,20 @@ void FixClusterBreakMerge::add_up_contacts()
   }
 }
 
+/* ----------------------------------------------------------------------
+   minimum fluidization velocity after Wen & Yu: of each cluster's own gas where density or viscosity vary
+------------------------------------------------------------------------- */
+
+double FixClusterBreakMerge::umf_in(const Gas &gas, const ClusterGeometry &particles) const
+{
+  return umf_wen_yu(particles.d_p, particles.rho_p, gas, gravity);
+}
+
+bool FixClusterBreakMerge::local_umf() const
+{
+  return term_mf && umf_from_wen_yu && drag && !drag->uniform_properties();
+}
+
 /* ---------------------------------------------------------------------- */
 
 void FixClusterBreakMerge::average_cells()
@@ -179,9 +193,10 @@ void FixClusterBreakMerge::average_cells()
     averages->add(x, CellAverages::MASS, atom->rmass[i]);
     averages->add(x, CellAverages::MASS_SPEED, atom->rmass[i] * std::fabs(v[gravity_axis]));
     if (term_st && nst == NstReading::CELL) {
-      const Vec3 u = drag->gas_velocity(i);
-      const Vec3 slip = drag->in_plane(u - v);
-      averages->add(x, CellAverages::DRAG_POWER, dot(drag->cluster_coefficient(i, norm(slip)) * slip, u));
+      const LocalGas here = drag->gas_at(i);
+      const Vec3 slip = drag->in_plane(here.u - v);
+      const double b = drag->cluster_coefficient(i, here.gas, norm(slip));
+      averages->add(x, CellAverages::DRAG_POWER, dot(b * slip, here.u));
     }
   }
   averages->sum();
@@ -205,13 +220,13 @@ void FixClusterBreakMerge::find_stable_sizes()
     if (term_st && nst == NstReading::CELL)
       gas = averages->total(x, CellAverages::DRAG_POWER) / averages->total(x, CellAverages::MASS);
     else if (term_st) {
-      const Vec3 u = drag->gas_velocity(i);
-      const Vec3 slip = drag->in_plane(u - v);
+      const LocalGas here = drag->gas_at(i);
+      const Vec3 slip = drag->in_plane(here.u - v);
       const double speed = norm(slip);
       const bool single = nst == NstReading::PARTICLE;
-      const double b = single ? drag_coefficient(drag->drag_law(), drag->gas_properties(), particles.d_p, speed)
-                              : drag->cluster_coefficient(i, speed);
-      gas = n_st(b * slip, u, single ? particles.particle_mass() : atom->rmass[i]);
+      const double b = single ? drag_coefficient(drag->drag_law(), here.gas, particles.d_p, speed)
+                              : drag->cluster_coefficient(i, here.gas, speed);
+      gas = n_st(b * slip, here.u, single ? particles.particle_mass() : atom->rmass[i]);
     }
     if (looks_at_power()) contacts = n_cc(power[i], atom->rmass[i], ncc_factor);
     if (term_mf) {
@@ -221,7 +236,8 @@ void FixClusterBreakMerge::find_stable_sizes()
         speed = averages->total(x, CellAverages::MASS_SPEED) / mass;
         if (up == UpReading::SUPERFICIAL) speed *= mass / (particles.rho_p * averages->cell_volume());
       }
-      fluidization = n_smf(nsmf, mine.u_mf, speed, eps_mf, gravity);
+      const double u_mf = local_umf() ? umf_in(drag->gas_at(i).gas, particles) : mine.u_mf;
+      fluidization = n_smf(nsmf, u_mf, speed, eps_mf, gravity);
     }
 
     const StableSize size = mine.rule.stable(gas + contacts - fluidization);

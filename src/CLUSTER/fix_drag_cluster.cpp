@@ -5,7 +5,7 @@
 #include "fix_drag_cluster.h"
 
 #include "fix_cluster_breakmerge.h"
-#include "four_clusters.h"
+#include "gas_frames.h"
 #include "model/drag_table.h"
 #include "style_arguments.h"
 
@@ -17,7 +17,6 @@
 #include "input.h"
 #include "memory.h"
 #include "modify.h"
-#include "neighbor.h"
 #include "update.h"
 #include "variable.h"
 
@@ -42,9 +41,11 @@ FixDragCluster::FixDragCluster(LAMMPS *lmp, int narg, char **arg) :
 {
   dynamic_group_allow = 1;
   vector_flag = 1;
-  size_vector = 4;
+  size_vector = 5;
   global_freq = 1;
-  extvector = 1;
+  static int extensive[] = {1, 1, 1, 1, 0};
+  extvector = -1;
+  extlist = extensive;
   peratom_flag = 1;
   size_peratom_cols = COLUMNS;
   peratom_freq = 1;
@@ -62,6 +63,7 @@ FixDragCluster::FixDragCluster(LAMMPS *lmp, int narg, char **arg) :
     const std::string keyword = args.word("keyword");
     if (keyword == "velocity") parse_velocity(args);
     else if (keyword == "profile") parse_profile(args);
+    else if (keyword == "field") parse_field(args);
     else if (keyword == "fluctuation") parse_fluctuation(args);
     else if (keyword == "law") parse_law(args);
     else if (keyword == "plane") parse_plane(args);
@@ -77,6 +79,10 @@ FixDragCluster::FixDragCluster(LAMMPS *lmp, int narg, char **arg) :
     else args.unknown_keyword();
   }
 
+  if (field) {
+    if (fluctuation == NO_FLUCTUATION) field->leave_out(GasFile::FLUCTUATION);
+    field->tell();
+  }
   if (table) law = std::make_unique<DragTable>(std::move(law));
 
   if (fluctuation == OWN) {
@@ -136,6 +142,7 @@ void FixDragCluster::init()
                  id);
   }
   if (unshielded > 0.0) find_primary_particle();
+  if (field) field->init();
 }
 
 /* ----------------------------------------------------------------------
@@ -177,6 +184,7 @@ void FixDragCluster::prepare()
 {
   const double t = update->atime + (update->ntimestep - update->atimestep) * update->dt;
   period_now = period_index(t, period);
+  if (field) field->prepare(t);
   if (static_cast<int>(cache.size()) < atom->nmax) cache.resize(atom->nmax);
   for (int k = 0; k < 3; k++) inverse_length[k] = 1.0 / domain->prd[k];
 
@@ -211,12 +219,13 @@ bool FixDragCluster::any_variable() const
 }
 
 /* ----------------------------------------------------------------------
-   gas velocity that owned cluster i sees: mean + profile + fluctuation
+   gas that owned cluster i sees; its velocity: mean + profile + field + fluctuation
 ------------------------------------------------------------------------- */
 
-Vec3 FixDragCluster::gas_velocity(int i)
+LocalGas FixDragCluster::gas_at(int i)
 {
-  Vec3 u;
+  LocalGas here = {{}, gas};
+  Vec3 &u = here.u;
   for (int k = 0; k < 3; k++) u[k] = velocity[k].per_atom ? velocity_atom[i][k] : velocity[k].value;
   if (profile_axis >= 0) {
     double s = atom->x[i][profile_axis];
@@ -226,13 +235,33 @@ Vec3 FixDragCluster::gas_velocity(int i)
     }
     u = u + profile.at(s);
   }
-  if (fluctuation != NO_FLUCTUATION) u = u + fluctuation_of(i);
-  return u;
+  Vec3 a = amplitude;
+  if (field) {
+    double values[GasFrames::MOST_VALUES];
+    field->at(atom->x[i], values);
+    u = u + to_vec3(values);
+    if (field->has(GasFile::DENSITY)) here.gas.rho = values[field->first(GasFile::DENSITY)];
+    if (field->has(GasFile::VISCOSITY)) here.gas.nu = values[field->first(GasFile::VISCOSITY)];
+    if (field->has(GasFile::FLUCTUATION))
+      for (int k = 0; k < 3; k++) a[k] *= values[field->first(GasFile::FLUCTUATION) + k];
+  }
+  if (fluctuation != NO_FLUCTUATION) {
+    const Vec3 &unit = unit_fluctuation(i);
+    for (int k = 0; k < 3; k++) u[k] += a[k] * unit[k];
+  }
+  return here;
 }
 
-/* ---------------------------------------------------------------------- */
+bool FixDragCluster::uniform_properties() const
+{
+  return !field || !(field->has(GasFile::DENSITY) || field->has(GasFile::VISCOSITY));
+}
 
-Vec3 FixDragCluster::fluctuation_of(int i)
+/* ----------------------------------------------------------------------
+   random numbers from -1 to 1, of the cell or of the cluster
+------------------------------------------------------------------------- */
+
+const Vec3 &FixDragCluster::unit_fluctuation(int i)
 {
   CachedFluctuation &cached = cache[i];
   int64_t a, b = 0;
@@ -246,24 +275,23 @@ Vec3 FixDragCluster::fluctuation_of(int i)
     b = draw[i];
   }
   if (cached.a != a || cached.b != b || cached.period != period_now) {
-    const Vec3 u = fluctuation == PER_CELL ? cell_fluctuation(seed, a, period_now)
-                                           : own_fluctuation(seed, a, b, period_now);
     cached.a = a;
     cached.b = b;
     cached.period = period_now;
-    for (int k = 0; k < 3; k++) cached.u[k] = amplitude[k] * u[k];
+    cached.unit = fluctuation == PER_CELL ? cell_fluctuation(seed, a, period_now)
+                                          : own_fluctuation(seed, a, b, period_now);
   }
-  return cached.u;
+  return cached.unit;
 }
 
 /* ----------------------------------------------------------------------
    drag on owned cluster i is this coefficient times its slip
 ------------------------------------------------------------------------- */
 
-double FixDragCluster::cluster_coefficient(int i, double slip_speed) const
+double FixDragCluster::cluster_coefficient(int i, const Gas &here, double slip_speed) const
 {
   const double n = unshielded > 0.0 ? atom->rmass[i] / particle_mass : 0.0;
-  return cluster_drag_coefficient(*law, gas, 2.0 * atom->radius[i], particle_d, n, unshielded, slip_speed);
+  return cluster_drag_coefficient(*law, here, 2.0 * atom->radius[i], particle_d, n, unshielded, slip_speed);
 }
 
 Vec3 FixDragCluster::in_plane(const Vec3 &force) const
@@ -332,19 +360,20 @@ bool FixDragCluster::add_drag(int first, int last)
   const int *mask = atom->mask;
   const double dt = update->dt;
   const int n = last - first;
-  Vec3 u[BLOCK], slip[BLOCK];
+  LocalGas seen[BLOCK];
+  Vec3 slip[BLOCK];
   double speed[BLOCK], b[BLOCK];
 
   // outside of the group the gas goes along: no slip, no force
   for (int m = 0; m < n; m++) {
     const int i = first + m;
-    u[m] = mask[i] & groupbit ? gas_velocity(i) : to_vec3(v[i]);
+    seen[m] = mask[i] & groupbit ? gas_at(i) : LocalGas{to_vec3(v[i]), gas};
   }
   for (int m = 0; m < n; m++) {
-    slip[m] = in_plane(u[m] - to_vec3(v[first + m]));
+    slip[m] = in_plane(seen[m].u - to_vec3(v[first + m]));
     speed[m] = norm(slip[m]);
   }
-  for (int m = 0; m < n; m++) b[m] = cluster_coefficient(first + m, speed[m]);
+  for (int m = 0; m < n; m++) b[m] = cluster_coefficient(first + m, seen[m].gas, speed[m]);
 
   double sum[4] = {0.0, 0.0, 0.0, 0.0};
   for (int m = 0; m < n; m++) {
@@ -359,80 +388,19 @@ bool FixDragCluster::add_drag(int first, int last)
     shortest_tau = MIN(shortest_tau, tau);
     const double coefficient = exponential ? b[m] * exponential_factor(dt / tau) : b[m];
     const Vec3 drag = coefficient * slip[m];
-    if (refresh > 1) hold(i, u[m], coefficient);
+    if (refresh > 1) hold(i, seen[m].u, coefficient);
     for (int k = 0; k < 3; k++) {
       f[i][k] += drag[k];
       sum[k] += drag[k];
-      row[k] = u[m][k];
+      row[k] = seen[m].u[k];
       row[3 + k] = drag[k];
     }
     sum[3] += dot(drag, to_vec3(v[i]));
-    row[6] = reynolds(speed[m], 2.0 * radius[i], gas);
+    row[6] = reynolds(speed[m], 2.0 * radius[i], seen[m].gas);
     row[7] = tau;
   }
   for (int k = 0; k < 4; k++) totals[k] += sum[k];
   return std::isfinite(sum[0] + sum[1] + sum[2]);
-}
-
-/* ----------------------------------------------------------------------
-   Between two refreshes the gas velocity and the coefficient of each cluster are held; slots of the atom arrays change
-   hands only when the neighbor lists are rebuilt, and then all is computed anew.
-------------------------------------------------------------------------- */
-
-bool FixDragCluster::due() const
-{
-  return refresh == 1 || update->setupflag || neighbor->ago == 0 || update->ntimestep % refresh == 0 ||
-      held_dt != update->dt;
-}
-
-void FixDragCluster::hold(int i, const Vec3 &u, double b)
-{
-  for (int k = 0; k < 3; k++) held_u[3 * i + k] = u[k];
-  held_b[i] = b;
-}
-
-bool FixDragCluster::hand_over()
-{
-  handed_over = !due();
-  return handed_over;
-}
-
-bool FixDragCluster::add_held_drag()
-{
-  if (any_variable()) modify->addstep_compute(update->ntimestep + 1);    // the lists may be rebuilt at any step
-  const int nlocal = atom->nlocal;
-  const double *v = nlocal ? atom->v[0] : nullptr;
-  double *f = nlocal ? atom->f[0] : nullptr;
-  const Vec3 along = in_plane({1.0, 1.0, 1.0});
-  double force[3] = {0.0, 0.0, 0.0}, power = 0.0;
-  int i = 0;
-#ifdef CLUSTER_PACKS
-  const Fourfold along_all(along);
-  Pack forces[3] = {}, powers = {};
-  for (; i + 4 <= nlocal; i += 4) {
-    const Threefold b(load(&held_b[i]));
-    for (int part = 0; part < 3; part++) {
-      const int m = 3 * i + 4 * part;
-      const Pack speed = load(v + m);
-      const Pack drag = held_drag(along_all.part[part], b.part[part], load(&held_u[m]), speed);
-      store(f + m, load(f + m) + drag);
-      forces[part] += drag;
-      powers += drag * speed;
-    }
-  }
-  for (int m = 0; m < 12; m++) force[m % 3] += forces[m / 4][m % 4];
-  for (int m = 0; m < 4; m++) power += powers[m];
-#endif
-  for (; i < nlocal; i++)
-    for (int k = 0; k < 3; k++) {
-      const double drag = held_drag(along[k], held_b[i], held_u[3 * i + k], v[3 * i + k]);
-      f[3 * i + k] += drag;
-      force[k] += drag;
-      power += drag * v[3 * i + k];
-    }
-  for (int k = 0; k < 3; k++) totals[k] = force[k];
-  totals[3] = power;
-  return std::isfinite(force[0] + force[1] + force[2]);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -499,11 +467,17 @@ int FixDragCluster::maxsize_restart()
 }
 
 /* ----------------------------------------------------------------------
-   total drag force on the group, and its power
+   total drag force on the group, its power, most memory that the gas field takes on a rank
 ------------------------------------------------------------------------- */
 
 double FixDragCluster::compute_vector(int n)
 {
+  if (n == 4) {
+    const double mine = field ? field->bytes() : 0.0;
+    double most = 0.0;
+    MPI_Allreduce(&mine, &most, 1, MPI_DOUBLE, MPI_MAX, world);
+    return most;
+  }
   if (!totals_current) {
     MPI_Allreduce(totals, totals_all, 4, MPI_DOUBLE, MPI_SUM, world);
     totals_current = true;
@@ -517,5 +491,5 @@ double FixDragCluster::memory_usage()
 {
   return (double) peratom_rows * COLUMNS * sizeof(double) + (double) cache.size() * sizeof(CachedFluctuation) +
       (double) (held_u.size() + held_b.size()) * sizeof(double) + (double) nmax_velocity * 3 * sizeof(double) +
-      (draw ? (double) atom->nmax * sizeof(int) : 0.0);
+      (draw ? (double) atom->nmax * sizeof(int) : 0.0) + (field ? field->bytes() : 0.0);
 }

@@ -17,6 +17,7 @@ FixStyle(drag/cluster,FixDragCluster);
 #include "model/gas_field.h"
 
 namespace LAMMPS_NS {
+class GasFrames;
 class StyleArguments;
 
 class FixDragCluster : public EngineFix {
@@ -41,14 +42,15 @@ class FixDragCluster : public EngineFix {
   double compute_vector(int) override;
   double memory_usage() override;
 
-  // What the size law asks of the gas. prepare() once per step, before any gas_velocity().
+  // What the size law asks of the gas. prepare() once per step, before any gas_at().
   void prepare();
-  ClusterDEM::Vec3 gas_velocity(int i);
-  double cluster_coefficient(int i, double slip_speed) const;
+  ClusterDEM::LocalGas gas_at(int i);
+  double cluster_coefficient(int i, const ClusterDEM::Gas &gas, double slip_speed) const;
   ClusterDEM::Vec3 in_plane(const ClusterDEM::Vec3 &force) const;
   ClusterDEM::Vec3 force_on(int i) const { return ClusterDEM::to_vec3(array_atom[i] + 3); }    // as last computed
   const ClusterDEM::DragLaw &drag_law() const { return *law; }
-  const ClusterDEM::Gas &gas_properties() const { return gas; }
+  const ClusterDEM::Gas &gas_properties() const { return gas; }    // where no field says otherwise
+  bool uniform_properties() const;
 
   // Between two refreshes fix nve/cluster can take the drag into its own pass: true if it is held at this step, and is
   // then left to the caller.
@@ -78,9 +80,12 @@ class FixDragCluster : public EngineFix {
   ClusterDEM::GasProfile profile;
   int profile_axis;
 
+  // gas from files: velocity, and what else they hold
+  std::unique_ptr<GasFrames> field;
+
   enum { NO_FLUCTUATION, PER_CELL, OWN };
   int fluctuation;
-  ClusterDEM::Vec3 amplitude;
+  ClusterDEM::Vec3 amplitude;    // of a field with an amplitude: factors on that
   int cells[3];
   double period;
   uint64_t seed;
@@ -91,7 +96,7 @@ class FixDragCluster : public EngineFix {
   // it stays right whichever cluster comes to use the slot: nothing to migrate.
   struct CachedFluctuation {
     int64_t a = -1, b = -1, period = -1;
-    ClusterDEM::Vec3 u;
+    ClusterDEM::Vec3 unit;
   };
   std::vector<CachedFluctuation> cache;
   int *draw;    // draw number per cluster (own fluctuation only)
@@ -117,10 +122,15 @@ class FixDragCluster : public EngineFix {
   void parse_law(StyleArguments &);
   void parse_plane(StyleArguments &);
   void parse_profile(StyleArguments &);
+  void parse_field(StyleArguments &);
   void find_primary_particle();
-  ClusterDEM::Vec3 fluctuation_of(int i);
+  const ClusterDEM::Vec3 &unit_fluctuation(int i);
   bool due() const;
-  void hold(int i, const ClusterDEM::Vec3 &u, double b);
+  void hold(int i, const ClusterDEM::Vec3 &u, double b)
+  {
+    for (int k = 0; k < 3; k++) held_u[3 * i + k] = u[k];
+    held_b[i] = b;
+  }
   bool add_drag_anew();
   bool add_drag(int first, int last);
 };

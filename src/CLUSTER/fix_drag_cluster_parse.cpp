@@ -6,6 +6,7 @@
 
 #include "fix_drag_cluster.h"
 
+#include "gas_frames.h"
 #include "style_arguments.h"
 
 #include "comm.h"
@@ -125,5 +126,25 @@ void FixDragCluster::parse_profile(StyleArguments &args)
   for (int k = 0; k < n; k += 4) {
     profile.s.push_back(rows[k]);
     profile.u.push_back({rows[k + 1], rows[k + 2], rows[k + 3]});
+  }
+}
+
+/* ----------------------------------------------------------------------
+   field FILE [edge axis periodic|clamp] ... [loop PERIOD]
+------------------------------------------------------------------------- */
+
+void FixDragCluster::parse_field(StyleArguments &args)
+{
+  const std::string file = args.word("field FILE");
+  field = std::make_unique<GasFrames>(lmp, fmt::format("Fix {} {}", style, id), file, args.caret());
+  while (args.next_is("edge") || args.next_is("loop")) {
+    if (args.word("keyword") == "edge") {
+      const int axis = args.choice("field edge axis", {"x", "y", "z"});
+      field->set_edge(
+          axis, args.choice("field edge", {"periodic", "clamp"}) == 0 ? GasFrames::PERIODIC : GasFrames::CLAMP);
+    } else {
+      const double period = args.positive("field loop PERIOD", "time");
+      field->set_period(period, args.caret());
+    }
   }
 }

@@ -112,6 +112,12 @@ struct Gas {
   double rho, nu;    // density [mass/volume], kinematic viscosity [length^2/time]
 };
 
+// the gas that a cluster sees where it is
+struct LocalGas {
+  Vec3 u;    // velocity
+  Gas gas;
+};
+
 inline double reynolds(double speed, double d, const Gas &gas)
 {
   return speed * d / gas.nu;
