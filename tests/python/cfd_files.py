@@ -12,9 +12,9 @@ LENGTHS = (0.3, 0.1, 0.6)
 class Block:
     """Equal hexahedra over a box; points, cells and faces numbered as solvers do."""
 
-    def __init__(self, counts=(6, 2, 8), lengths=LENGTHS):
+    def __init__(self, counts=(6, 2, 8), lengths=LENGTHS, origin=(0, 0, 0)):
         self.counts = counts
-        axes = [np.linspace(0, length, n + 1) for length, n in zip(lengths, counts)]
+        axes = [o + np.linspace(0, length, n + 1) for o, length, n in zip(origin, lengths, counts)]
         self.points = _grid(axes)
         self.centres = _grid([(a[1:] + a[:-1]) / 2 for a in axes])
         self.inner, self.outer = self._faces()

@@ -74,6 +74,8 @@ def check(command, tmp_path, gas, *words):
             ("--box", 0, 0.3, 0, 0.6, "--periodic", "x"),
             "the last plane is the first of the next period, but differs by up to 0.5 m/s",
         ),
+        (field(), ("--box", 0, 0.4, 0, 0.6, "--periodic", "x"), "more than a spacing is missing"),
+        (field(), ("--box", 0, 0.4, 0, 0.6, "--edge", "x", "open"), "needs an axis x, y or z, and periodic or clamp"),
         (field(), ("--box", 0.3, 0, 0, 0.6), "lower bound below"),
         (field(), ("--box", 0, 0.3), "4 or 6 lengths"),
         (field(), ("--dump", "none.dump"), "cannot be opened"),
@@ -92,7 +94,6 @@ def test_errors(tmp_path, command, gas, words, rule):
         (field(density=1000), (), "density is 1000 to 1000 kg/m^3, that of a gas is 0.05 to 200"),
         (field(viscosity=15), (), "viscosity is 15 to 15 m^2/s, that of a gas is 1e-07 to 0.01: is it the"),
         (field(density=20, viscosity=1.8e-5), (), "density times viscosity is 0.00036 to 0.00036 Pa s"),
-        (field(), ("--box", 0, 0.4, 0, 0.6, "--periodic", "x"), "along x 0.1 m of the period of 0.4 m have no points"),
         (
             field(x=np.linspace(0, 300, 7)),
             ("--box", 0, 0.3, 0, 0.6),
@@ -117,6 +118,8 @@ def test_warnings(tmp_path, command, gas, words, rule):
         (field(), ("--box", 0, 0.3, 0, 0.6, "--periodic", "xz")),  # the last planes equal the first
         (field(x=X + 0.025, z=Z[:-1] + 0.025), ("--box", 0, 0.35, 0, 0.6)),  # cell centres: half a cell short
         (field(x=X[:-1], z=Z[:-1]), ("--box", 0, 0.3, 0, 0.6, "--periodic", "xz")),
+        (field(), ("--box", 0, 0.4, 0, 0.9, "--periodic", "x", "--edge", "x", "periodic", "--edge", "z", "clamp")),
+        (field(y=[0, 0.1]), ("--box", 0, 0.3, 0, 0.6)),
         (field(x=[0.1]), ("--box", 0, 5, 0, 0.6)),  # one point: uniform along x
     ],
 )
@@ -130,7 +133,7 @@ def test_box_of_a_dump(tmp_path, command):
     assert BOX.lengths == (0.3, 0.003, 0.6)
     assert check(command, tmp_path, field(), "--dump", dump)[0] == 0
     code, _, err = check(command, tmp_path, field(z=Z / 2), "--dump", dump)
-    assert code == 0  # periodic along z: the missing half is interpolated, with a warning
+    assert code == 2 and "the box from 0 to 0.6 m: more than a spacing" in err
     code, _, err = check(command, tmp_path, field(z=2 * Z), "--dump", dump)
     assert code == 2 and "longer than the period" in err
 

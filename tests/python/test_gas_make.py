@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import shutil
 import sys
 
 import numpy as np
@@ -87,6 +88,16 @@ def openfoam(folder):
     return write_openfoam(folder / "case", block, {0.0: {"U": linear(block.centres)}})
 
 
+def openfoam_decomposed(folder):
+    """Two processors, side by side along x; only what they share the folder with knows the case."""
+    for k in (0, 1):
+        block = Block((3, 2, 8), (0.15, 0.1, 0.6), (0.15 * k, 0, 0))
+        part = write_openfoam(folder / f"case/processor{k}", block, {0.0: {"U": linear(block.centres)}})
+        shutil.copytree(part / "system", folder / "case/system", dirs_exist_ok=True)
+        shutil.rmtree(part / "system")
+    return folder / "case"
+
+
 def fluent_case(folder):
     block = Block()
     u = linear(block.centres)
@@ -134,6 +145,7 @@ SOURCES = {
     "Fluent, ASCII export": (fluent_ascii, EXACT),
     "Fluent, case and data": (fluent_case, SINGLE),
     "OpenFOAM": (openfoam, SINGLE),
+    "OpenFOAM, decomposed": (openfoam_decomposed, SINGLE),
     "Gmsh": (gmsh, EXACT),
 }
 
@@ -336,14 +348,14 @@ def test_time_series(tmp_path, command):
     assert read_field(tmp_path / "h.vtk").time == 0.5
     code, _, err = command("gas", "make", case, "-o", tmp_path / "h.vtk", "--grid", 3, 3, "--time", 0.7)
     assert code == 2 and "has no time 0.7 s; it has 0, 0.5, 1.5" in err
-    # files without times take those of the command line, and are written in their order
+    # files without times take those of the command line
     image(block).save(tmp_path / "a.vti")
     image(block).save(tmp_path / "b.vti")
     pair = [tmp_path / "a.vti", tmp_path / "b.vti"]
     assert command("gas", "make", *pair, "-o", tmp_path / "s.vtk", "--time", 2, 1)[0] == 0
-    assert [read_field(tmp_path / f"s.000{k}.vtk").time for k in (0, 1)] == [1, 2]
+    assert [read_field(tmp_path / f"s.000{k}.vtk").time for k in (0, 1)] == [2, 1]
     code, _, err = command("gas", "make", *pair, "-o", tmp_path / "s.vtk")
-    assert code == 2 and "must have its TIME" in err
+    assert code == 2 and "a frame of a series needs its time: --time" in err
 
 
 def test_periodic(tmp_path, command):
@@ -415,7 +427,7 @@ def test_without_pyvista(tmp_path, command, monkeypatch):
         (("a.vti", "--grid", "5", "5", "--box", "1", "0", "0", "1"), "lower bound below"),
         (("a.vti", "--periodic", "u"), "letters among x, y, z"),
         (("a.vti", "b.vti", "--time", "1"), "a time for each of the 2 inputs"),
-        (("a.vti", "--time", "1", "2"), "holds 1 time, but --time gives 2"),
+        (("a.vti", "--time", "1", "2"), "holds no times, but --time gives 2"),
         (("a.vtu",), "needs --grid or --spacing: its 189 points fill 0.3 x 0.1 x 0.6 m"),
         (("flat.csv",), "lies in a plane of constant z"),
         (("line.csv", "--grid", "3", "3"), "needs z0 < z1 for 3 points"),

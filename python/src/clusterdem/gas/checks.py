@@ -6,7 +6,7 @@ The rules are those of ``fix drag/cluster … field``.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -140,14 +140,27 @@ def _divergence(gas: GasField) -> list[str]:
     ]
 
 
-def check_cover(gas: GasField, box: Box) -> list[Finding]:
-    """Whether a field covers a box, by the edge rules of the fix: periodic where the box is, else clamped."""
-    found = []
+def check_cover(gas: GasField, box: Box, edges: Mapping[str, str] | None = None) -> list[Finding]:
+    """Whether a field covers a box, by the edge rules of the fix.
+
+    Parameters
+    ----------
+    gas : GasField
+        The field.
+    box : Box
+        The box and where it is periodic.
+    edges : mapping of str to {"periodic", "clamp"}, optional
+        What the command says of an axis. Of others the box may reach one spacing of the points beyond them, and they are
+        periodic where the box is.
+    """
+    found, edges = [], edges or {}
     for k, name in enumerate("xyz"):
-        axis = gas.axes[k]
-        if axis.size > 1:
-            rule = _periodic(gas, k, box) if box.periodic[k] else _clamped(name, axis, box.lo[k], box.hi[k])
-            found += [Finding(level, gas.path, text) for level, text in rule]
+        if gas.axes[k].size == 1 or box.lengths[k] == 0:  # uniform, or a box that says nothing of y
+            continue
+        rules = [] if name in edges else _reach(name, gas.axes[k], box.lo[k], box.hi[k])
+        if edges.get(name, "periodic" if box.periodic[k] else "clamp") == "periodic" and not rules:
+            rules = _period(gas, k, box.lengths[k])
+        found += [Finding(level, gas.path, text) for level, text in rules]
     return found
 
 
@@ -157,36 +170,29 @@ def _unit_hint(span: float, length: float) -> str:
     return ""
 
 
-def _clamped(name: str, axis: Floats, low: float, high: float) -> list[tuple[str, str]]:
-    first, last = float(axis[1] - axis[0]), float(axis[-1] - axis[-2])
-    span = float(axis[-1] - axis[0])
-    if low >= axis[0] - first * (1 + SAME) and high <= axis[-1] + last * (1 + SAME):
-        hint = _unit_hint(span, high - low)
+def _reach(name: str, axis: Floats, low: float, high: float) -> list[tuple[str, str]]:
+    rounding = SAME * (high - low)
+    first, last = float(axis[0] - (axis[1] - axis[0])), float(axis[-1] + (axis[-1] - axis[-2]))
+    hint = _unit_hint(float(axis[-1] - axis[0]), high - low)
+    if low >= first - rounding and high <= last + rounding:
         return [("warning", f"along {name} it reaches from {axis[0]:.6g} to {axis[-1]:.6g} m{hint}")] if hint else []
-    hint = _unit_hint(span, high - low) or f": more than a spacing is missing; 'edge {name} clamp' would accept it"
     text = f"along {name} it reaches from {axis[0]:.6g} to {axis[-1]:.6g} m, the box from {low:.6g} to {high:.6g} m"
-    return [("error", text + hint)]
+    return [("error", text + (hint or f": more than a spacing is missing, unless 'edge {name} clamp' is meant"))]
 
 
-def _periodic(gas: GasField, k: int, box: Box) -> list[tuple[str, str]]:
-    name, axis, period = "xyz"[k], gas.axes[k], box.lengths[k]
+def _period(gas: GasField, k: int, period: float) -> list[tuple[str, str]]:
+    name, axis = "xyz"[k], gas.axes[k]
     span = float(axis[-1] - axis[0])
     if span > period * (1 + SAME):
         text = f"along {name} it is {span:.6g} m long, longer than the period of the box, {period:.6g} m"
-        return [("error", text + _unit_hint(span, period))]
-    gap = period - span
-    if gap <= SAME * period:
-        for array, values in gas.arrays.items():
-            ends = np.take(values, 0, k), np.take(values, -1, k)
-            apart = float(np.max(np.abs(ends[0] - ends[1])))
-            if apart > SAME * max(float(np.max(np.abs(values))), math.ulp(0.0)):
-                text = (
-                    f"array {array}: along {name} the last plane is the first of the next period, but differs by up to"
-                )
-                return [("error", f"{text} {apart:.3g} {UNITS[array]}: clamp it ('edge {name} clamp') or leave it out")]
-    elif gap > (1 + SAME) * float(np.max(np.diff(axis))):
-        text = f"along {name} {gap:.6g} m of the period of {period:.6g} m have no points and are interpolated"
-        return [("warning" if not _unit_hint(span, period) else "error", text + _unit_hint(span, period))]
+        return [("error", f"{text}{_unit_hint(span, period)}: 'edge {name} clamp' would accept it")]
+    if period - span > SAME * period:
+        return []
+    for array, values in gas.arrays.items():
+        apart = float(np.max(np.abs(np.take(values, 0, k) - np.take(values, -1, k))))
+        if apart > SAME * max(float(np.max(np.abs(values))), math.ulp(0.0)):
+            text = f"array {array}: along {name} the last plane is the first of the next period, but differs by up to"
+            return [("error", f"{text} {apart:.3g} {UNITS[array]}: leave it out, or use 'edge {name} clamp'")]
     return []
 
 

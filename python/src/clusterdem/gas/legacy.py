@@ -40,7 +40,7 @@ class LegacyGrid:
     points, cells : dict of str to ndarray, shape (n,) or (n, k)
         Arrays at points and in cells, x fastest.
     time : float
-        The field ``TIME`` (or ``TimeValue``); NaN if there is none.
+        The field ``TIME``; NaN if there is none.
     """
 
     axes: Axes
@@ -207,7 +207,7 @@ class _Body:
             values = self._array(tuples, components, words[3])
             if here is not None:
                 here[name] = values
-            elif name in ("TIME", "TimeValue") and values.size:
+            elif name == "TIME" and values.size:
                 self.time = float(values.flat[0])
 
     def _points(self) -> Axes:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from ...errors import InputError
 from ...gas.checks import check_cover, check_field, check_series, describe, describe_divergence, refuse
 from ...gas.legacy import read_field
 from .common import add_box, box_of, box_of_dump, checked_box
@@ -19,11 +20,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help="gas field files; several are a series")
     add_box(parser, "of the run")
     parser.add_argument("--dump", type=Path, metavar="DUMP", help="take the box from a dump of the run instead")
+    parser.add_argument(
+        "--edge", nargs=2, action="append", default=[], metavar=("AXIS", "HOW"), help="as in the fix: periodic or clamp"
+    )
 
 
 def run(options: argparse.Namespace) -> None:
     numbers = checked_box(options)
     box = box_of_dump(options.dump) if options.dump else box_of(numbers, options.periodic) if numbers else None
+    edges = dict(options.edge)
+    if not set(edges) <= set("xyz") or not set(edges.values()) <= {"periodic", "clamp"}:
+        raise InputError("--edge", "needs an axis x, y or z, and periodic or clamp")
     found, fields = [], []
     for path in options.files:
         gas = read_field(path)
@@ -32,7 +39,7 @@ def run(options: argparse.Namespace) -> None:
         if all(finding.level != "error" for finding in own):
             print(describe_divergence(gas))
         if box is not None:
-            own += check_cover(gas, box)
+            own += check_cover(gas, box, edges)
         found += own
         fields.append(gas)
     found += check_series(fields)

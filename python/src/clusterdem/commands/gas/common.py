@@ -13,6 +13,8 @@ from ...gas.checks import Finding
 from ...header import read_header
 from ...streams import open_lines
 
+MOST_WARNINGS = 4
+
 
 def add_box(parser: argparse.ArgumentParser, help: str) -> None:
     """A box by hand, and where it repeats."""
@@ -58,13 +60,17 @@ def box_of_dump(path: Path) -> Box:
     return header.box
 
 
-def numbered(path: Path, number: int, count: int) -> Path:
-    """``gas.vtk``, or ``gas.0003.vtk`` in a series."""
-    return path if count == 1 else path.with_name(f"{path.stem}.{number:04d}{path.suffix}")
+def numbered(path: Path, number: int) -> Path:
+    """Of ``gas.vtk`` ``gas.0003.vtk``."""
+    return path.with_name(f"{path.stem}.{number:04d}{path.suffix}")
 
 
 def warn(findings: Sequence[Finding]) -> None:
-    """Print warnings to stderr."""
-    for finding in findings:
-        if finding.level == "warning":
-            print(finding, file=sys.stderr)
+    """Print the first warnings to stderr."""
+    warnings = [finding for finding in findings if finding.level == "warning"]
+    for finding in warnings[:MOST_WARNINGS]:
+        print(finding, file=sys.stderr)
+    if more := warnings[MOST_WARNINGS:]:
+        print(
+            f"and {len(more)} more warnings, such as each frame has; clusterdem gas check lists them", file=sys.stderr
+        )

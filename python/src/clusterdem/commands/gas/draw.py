@@ -23,4 +23,5 @@ def run(options: argparse.Namespace) -> None:
     for k, path in enumerate(options.files):
         gas = read_field(path)
         refuse(check_field(gas))
-        tell(save(draw_gas(gas, options.slice), numbered(options.out, k, len(options.files))))
+        path = options.out if len(options.files) == 1 else numbered(options.out, k)
+        tell(save(draw_gas(gas, options.slice), path))

@@ -20,6 +20,8 @@ import math
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
+
 from ...errors import InputError
 from ...gas.axes import LENGTHS, SPEEDS, Placement, parse_axes
 from ...gas.checks import check_cover, check_field, check_series, refuse
@@ -31,6 +33,9 @@ from ...gas.sources import Source
 from ...gas.tables import SUFFIXES, read_table
 from ..common import positive, tell
 from .common import add_box, box_of, checked_box, numbered, warn
+
+NOTHING = np.empty(0)
+"""Stands for the values of a frame that is written: what it needs no more to be compared."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -75,21 +80,34 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> None:
     recipe, placement, target = _recipe(options), _placement(options), _target(options)
-    frames = []
-    for source in _sources(options):
-        frames.append(resample(source, recipe, placement, target, options.fill == "nearest"))
-        found = check_field(frames[-1])
+    found, frames = [], []
+    for number, (source, alone) in enumerate(_one_ahead(_sources(options))):
+        gas = resample(source, recipe, placement, target, options.fill == "nearest")
+        found += check_field(gas)
         if target.box is not None:
-            found += check_cover(frames[-1], box_of(target.box, target.periodic))
+            found += check_cover(gas, box_of(target.box, target.periodic))
+        path = options.out if alone else numbered(options.out, number)
+        frames.append(dataclasses.replace(gas, path=str(path), arrays=dict.fromkeys(gas.arrays, NOTHING)))
+        if not alone and math.isnan(gas.time):
+            raise InputError(source.path, "a frame of a series needs its time: --time")
         refuse(found)
-        warn(found)
-    frames.sort(key=lambda gas: gas.time)
-    named = [dataclasses.replace(gas, path=str(numbered(options.out, k, len(frames)))) for k, gas in enumerate(frames)]
-    series = check_series(named)
-    refuse(series)
-    warn(series)
-    for gas in named:
-        tell(write_field(gas.path, gas, options.ascii))
+        tell(write_field(path, gas, options.ascii))
+    found += check_series(frames)
+    refuse(found)
+    warn(found)
+
+
+def _one_ahead(sources: Iterator[Source]) -> Iterator[tuple[Source, bool]]:
+    """Each source, and whether it is the only one; not more than two are in memory."""
+    first = next(sources, None)
+    second = next(sources, None)
+    if first is not None:
+        yield first, second is None
+    if second is not None:
+        yield second, False
+    first = second = None
+    for source in sources:
+        yield source, False
 
 
 def _sources(options: argparse.Namespace) -> Iterator[Source]:
@@ -114,12 +132,12 @@ def _sources(options: argparse.Namespace) -> Iterator[Source]:
 
 def _alone(path: Path, times: list[float]) -> Iterator[Source]:
     """A file with several times gives those that are wished; one without takes the one that is given."""
-    found = list(_read(path, times))
-    if len(times) == 1 and len(found) == 1 and math.isnan(found[0].time):
-        found[0].time = times[0]
-    elif times and len(found) != len(times):
-        raise InputError(path, f"holds {len(found)} time, but --time gives {len(times)}")
-    yield from found
+    for source in _read(path, times):
+        if len(times) == 1 and math.isnan(source.time):
+            source.time = times[0]
+        elif times and math.isnan(source.time):
+            raise InputError(path, f"holds no times, but --time gives {len(times)}")
+        yield source
 
 
 def _read(path: Path, times: tuple[float, ...] | list[float]) -> Iterator[Source]:
