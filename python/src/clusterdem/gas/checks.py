@@ -192,7 +192,12 @@ def _period(gas: GasField, k: int, period: float) -> list[tuple[str, str]]:
         apart = float(np.max(np.abs(np.take(values, 0, k) - np.take(values, -1, k))))
         if apart > SAME * max(float(np.max(np.abs(values))), math.ulp(0.0)):
             text = f"array {array}: along {name} the last plane is the first of the next period, but differs by up to"
-            return [("error", f"{text} {apart:.3g} {UNITS[array]}: leave it out, or use 'edge {name} clamp'")]
+            return [
+                (
+                    "error",
+                    f"{text} {apart:.3g} {UNITS[array]}: leave it out (make --periodic {name}), or 'edge {name} clamp'",
+                )
+            ]
     return []
 
 

@@ -14,10 +14,12 @@ from ..errors import InputError
 from ..frame import Floats
 from ..style import COLOURS, new_figure, styled
 from .divergence import divergence
-from .field import SCALARS, GasField
+from .field import GasField
 
 STREAM_POINTS = 200
 """Points along the longer side of the even grid that streamlines are drawn on."""
+
+SCALAR_PANELS = (("density", "density (kg/m³)", 1.0), ("viscosity", "kinematic viscosity (mm²/s)", 1e6))
 
 
 def draw_gas(gas: GasField, y: float | None = None) -> Figure:
@@ -42,11 +44,11 @@ def draw_gas(gas: GasField, y: float | None = None) -> Figure:
     ]
     if "fluctuation" in gas:
         amplitude = np.linalg.norm(gas["fluctuation"][:, k], axis=-1)
-        panels.append(lambda a: _map(a, x, z, amplitude, "fluctuation, amplitude (m/s)", "magma"))
-    for name in SCALARS:
+        panels.append(lambda a: _map(a, x, z, amplitude, "amplitude of fluctuation (m/s)", "magma"))
+    for name, label, factor in SCALAR_PANELS:
         if name in gas:
-            label = "density (kg/m³)" if name == "density" else "kinematic viscosity (m²/s)"
-            panels.append(partial(_map, x=x, z=z, values=gas[name][:, k], label=label, colours="cividis"))
+            values = factor * gas[name][:, k]
+            panels.append(partial(_map, x=x, z=z, values=values, label=label, colours="cividis"))
     shape = float((z[-1] - z[0]) / (x[-1] - x[0]))
     wide = min(1.6, 7.5 / shape)  # of one panel (inch)
     with styled():

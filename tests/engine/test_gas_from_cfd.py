@@ -1,0 +1,64 @@
+"""Gas fields that `clusterdem gas` makes of CFD results, in the engine: what clusters see is what the CFD run had."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from cfd_files import LENGTHS, Block, linear, write_openfoam
+from clusterdem.cli import main
+from lammps_run import run
+
+pytest.importorskip("pyvista")
+
+SCENE = f"""
+units        si
+atom_style   sphere
+boundary     f f f
+comm_modify  vel yes
+region       box block 0 {LENGTHS[0]} 0 {LENGTHS[1]} 0 {LENGTHS[2]}
+create_box   1 box
+create_atoms 1 random 300 7 NULL
+set          group all diameter 1e-3
+set          group all density 1000.0
+pair_style   zero 2e-3
+pair_coeff   * *
+neighbor     1e-3 bin
+fix          drag all drag/cluster 1.2 1.53e-5 field {{field}} {{gusts}}
+fix          still all move linear 0 0 0
+timestep     0.01
+run          {{steps}}
+write_dump   all custom end.dump id x y z f_drag[1] f_drag[2] f_drag[3] modify sort id format float %.17g
+"""
+
+
+def seen(folder, field, steps=0, ranks=1, gusts=""):
+    """Places of the clusters and the gas velocity there."""
+    text = SCENE.format(field=field, steps=steps, gusts=gusts)
+    end = run(folder, text, ranks).dump()
+    return (np.stack([end[c] for c in names], axis=1) for names in ("xyz", [f"f_drag[{k}]" for k in (1, 2, 3)]))
+
+
+def test_openfoam_series(tmp_path):
+    """A case whose velocity is linear in place and time, on two ranks: exact but for float32, in which VTK reads it."""
+    block = Block()
+    u = linear(block.centres)
+    case = write_openfoam(tmp_path / "case", block, {t: {"U": (1 + t) * u} for t in (0.0, 0.5, 1.0)})
+    assert main(["gas", "make", str(case), "-o", str(tmp_path / "gas.vtk"), "--grid", "5", "4", "6"]) == 0
+    for steps in (0, 30):
+        places, gas = seen(tmp_path / f"run{steps}", "../gas.*.vtk", steps, ranks=2)
+        np.testing.assert_allclose(gas, (1 + 0.01 * steps) * linear(places), atol=2e-5)
+
+
+def test_all_arrays(tmp_path):
+    """Fluctuation from k: r.m.s. √(2k/3) in each component over the clusters."""
+    block = Block()
+    count = len(block.centres)
+    fields = {"U": linear(block.centres), "k": np.full(count, 1.5), "rho": np.full(count, 1.2)}
+    case = write_openfoam(tmp_path / "case", block, {0.0: fields})
+    words = ["--grid", "4", "4", "4", "--energy", "k", "--density", "rho", "--dynamic-viscosity", "1.8e-5"]
+    assert main(["gas", "make", str(case), "-o", str(tmp_path / "gas.vtk"), *words]) == 0
+    places, gas = seen(tmp_path / "run", "../gas.vtk", gusts="fluctuation 1 1 1 own frozen 7")
+    gust = gas - linear(places)
+    # uniform in ±√3 m/s; the r.m.s. of 300 draws scatters by 2.6 %: four times that
+    assert np.abs(gust).max() < np.sqrt(3) * (1 + 1e-5)
+    np.testing.assert_allclose(np.sqrt(np.mean(gust**2, axis=0)), 1.0, rtol=0.105)
