@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from cfd_files import LENGTHS, Block, linear, write_openfoam
 from clusterdem.cli import main
+from clusterdem.gas.field import GasField
+from clusterdem.gas.legacy import write_field
 from lammps_run import run
 
 pytest.importorskip("pyvista")
@@ -13,7 +15,7 @@ pytest.importorskip("pyvista")
 SCENE = f"""
 units        si
 atom_style   sphere
-boundary     f f f
+boundary     {{sides}}
 comm_modify  vel yes
 region       box block 0 {LENGTHS[0]} 0 {LENGTHS[1]} 0 {LENGTHS[2]}
 create_box   1 box
@@ -31,10 +33,13 @@ write_dump   all custom end.dump id x y z f_drag[1] f_drag[2] f_drag[3] modify s
 """
 
 
+def scene(field, steps=0, gusts="", sides="f f f"):
+    return SCENE.format(field=field, steps=steps, gusts=gusts, sides=sides)
+
+
 def seen(folder, field, steps=0, ranks=1, gusts=""):
     """Places of the clusters and the gas velocity there."""
-    text = SCENE.format(field=field, steps=steps, gusts=gusts)
-    end = run(folder, text, ranks).dump()
+    end = run(folder, scene(field, steps, gusts), ranks).dump()
     return (np.stack([end[c] for c in names], axis=1) for names in ("xyz", [f"f_drag[{k}]" for k in (1, 2, 3)]))
 
 
@@ -62,3 +67,52 @@ def test_all_arrays(tmp_path):
     # uniform in ±√3 m/s; the r.m.s. of 300 draws scatters by 2.6 %: four times that
     assert np.abs(gust).max() < np.sqrt(3) * (1 + 1e-5)
     np.testing.assert_allclose(np.sqrt(np.mean(gust**2, axis=0)), 1.0, rtol=0.105)
+
+
+def made(folder, x=(0.0, 0.1, 0.2, 0.3), names=("gas.vtk",), times=(0.0,), spoil=None):
+    """Files of a gas that differs from plane to plane along x, the last as the first."""
+    axes = (np.array(x), np.zeros(1), np.linspace(0, LENGTHS[2], 5))
+    for name, time in zip(names, times):
+        velocity = np.ones((len(x), 1, 5, 3))
+        velocity[1:-1] += 1
+        gas = GasField(axes, {"velocity": velocity, "density": np.full((len(x), 1, 5), 1.2)}, time)
+        if spoil:
+            gas.arrays[spoil[0]][spoil[1]] = spoil[2]
+        write_field(folder / name, gas)
+
+
+SERIES = ("gas.0.vtk", "gas.1.vtk")
+
+
+@pytest.mark.parametrize(
+    "sides, options, fields, fits",
+    [
+        ("f f f", "", {}, True),
+        ("f f f", "", {"x": (0.05, 0.15, 0.25)}, True),
+        ("f f f", "", {"x": (0.0, 0.05, 0.1)}, False),
+        ("f f f", "edge x clamp", {"x": (0.0, 0.05, 0.1)}, True),
+        ("p f f", "", {}, True),
+        ("p f f", "", {"x": (0.0, 0.1, 0.2)}, True),
+        ("p f f", "", {"x": (-0.15, -0.05, 0.05, 0.15)}, False),
+        ("p f f", "edge x periodic", {"x": (-0.15, -0.05, 0.05, 0.15)}, True),
+        ("p f f", "", {"x": (0.0, 0.1, 0.2, 0.4)}, False),
+        ("p f f", "", {"spoil": ("velocity", (3, 0, 2, 2), 3.0)}, False),
+        ("p f f", "edge x clamp", {"spoil": ("velocity", (3, 0, 2, 2), 3.0)}, True),
+        ("f f f", "", {"spoil": ("velocity", (1, 0, 2, 0), np.nan)}, False),
+        ("f f f", "", {"spoil": ("density", (1, 0, 2), 0.0)}, False),
+        ("f f f", "", {"names": SERIES, "times": (0.0, 1.0)}, True),
+        ("f f f", "", {"names": SERIES, "times": (0.0, np.nan)}, False),
+        ("f f f", "", {"names": SERIES, "times": (1.0, 1.0)}, False),
+    ],
+)
+def test_check_refuses_what_the_engine_refuses(tmp_path, sides, options, fields, fits):
+    """And nothing else, by the same edge rules."""
+    made(tmp_path, **fields)
+    files = [str(tmp_path / name) for name in fields.get("names", ("gas.vtk",))]
+    box = [str(end) for length in LENGTHS for end in (0, length)]
+    words = ["--box", *box, "--periodic", "x" if sides[0] == "p" else ""]
+    words += ["--edge", *options.split()[1:]] if options else []
+    checked = main(["gas", "check", *files, *words])
+    word = "../gas.*.vtk" if len(files) > 1 else "../gas.vtk"
+    done = run(tmp_path / "run", scene(f"{word} {options}", sides=sides), check=False)
+    assert (checked == 0, done.code == 0) == (fits, fits), done.output[-1000:]
