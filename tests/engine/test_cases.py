@@ -14,7 +14,7 @@ def case(folder, name, np_=1, **variables):
 
 
 @pytest.mark.parametrize("name, particles", [("case1", 2_000_000), ("case2", 3_100_000), ("case3", 3_100_000)])
-@pytest.mark.parametrize("reading", ["A", "B", "C", "E"])
+@pytest.mark.parametrize("reading", ["A", "B", "C", "E", "F", "free"])
 def test_runs(tmp_path, name, particles, reading):
     r = case(tmp_path, name, reading=reading)
     first, last = r.dump(f"{name}.00000000.dump"), r.dump(f"{name}.00000200.dump")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import zlib
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -192,6 +193,16 @@ def test_one_number_out_of_reach_does_not_rule_the_fit():
     robust = values[np.argmin([scale.loss(np.full((1, 10), value)) for value in values])]
     squares = values[np.argmin([(scale.residuals(np.full(10, value)) ** 2).sum() for value in values])]
     assert robust < 103 and squares > 120
+
+
+def test_the_loss_is_the_mean_of_its_cases_by_weight():
+    study = study_of(np.full(len(TIMES), 100.0), PARAMETERS)
+    heavy = replace(study.cases[0], name="heavy", weight=3.0, targets=study.cases[0].targets[:2])
+    scale = yardstick(replace(study, cases=(*study.cases, heavy)), np.zeros(len(TIMES) + 2))
+    samples = np.full((2, len(TIMES) + 2), 120.0)
+    samples[:, len(TIMES) :] = 150.0
+    light, other = (scale.loss_part(samples, part) for part in (slice(0, len(TIMES)), slice(len(TIMES), None)))
+    assert other > light and scale.loss(samples) == pytest.approx((light + 3 * other) / 4)
 
 
 def test_runs_that_overran_count_as_worst():

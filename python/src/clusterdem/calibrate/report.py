@@ -42,8 +42,10 @@ def _with_spread(target: Target, samples: Floats) -> str:
     mean = _shown(target, float(samples.mean()))
     if np.isnan(samples).any() or len(samples) < 2:
         return mean
-    scale = 1e6 if QUANTITIES[target.quantity].unit == "m" else 1.0
-    return f"{mean} ± {scale * samples.std(ddof=1):.2g}"
+    spread = float(samples.std(ddof=1))
+    if target.quantity == "clusters":
+        return f"{mean} ± {spread:,.0f}"
+    return f"{mean} ± {1e6 * spread if QUANTITIES[target.quantity].unit == 'm' else spread:.2g}"
 
 
 def _fit_rows(fit: Fit) -> list[list[str]]:
@@ -93,20 +95,22 @@ def _choices(fit: Fit) -> list[str]:
 
 
 def _targets(fit: Fit) -> list[str]:
-    columns = [("the fit, in the search", fit.best.stacked)]
-    columns += [
-        (f"{'start ' if c.name in fit.study.starts else ''}{c.name}, confirmed", c.samples) for c in fit.confirmed
-    ]
-    rows, index = [], 0
+    columns = [("the fit, in the search", fit.best.stacked, fit.scale)]
+    for c in fit.confirmed:
+        name = f"start {c.name}" if c.name in fit.study.starts else c.name
+        columns.append((f"{name}, confirmed", c.samples, fit.final or fit.scale))
+    rows, begin = [], 0
     for case in fit.study.cases:
-        for target in case.targets:
+        part = slice(begin, begin + len(case.targets))
+        for index, target in enumerate(case.targets, begin):
             row = [case.name, target.label, _observed(target)]
-            row += [_with_spread(target, samples[:, index]) for _, samples in columns]
-            rows.append(row)
-            index += 1
+            rows.append(row + [_with_spread(target, samples[:, index]) for _, samples, _ in columns])
+        losses = [f"{scale.loss_part(samples, part):.3f}" for _, samples, scale in columns]
+        rows.append([case.name, "*loss*", "", *losses])
+        begin = part.stop
     losses = [f"{fit.best.loss:.3f}", *(f"{c.loss:.3f} ± {c.error:.3f}" for c in fit.confirmed)]
     rows.append(["all", "*loss*", "", *losses])
-    return _table(["case", "target", "observed", *(name for name, _ in columns)], rows)
+    return _table(["case", "target", "observed", *(name for name, _, _ in columns)], rows)
 
 
 def _told(fit: Fit) -> list[str]:

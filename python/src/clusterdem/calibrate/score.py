@@ -51,6 +51,12 @@ class Yardstick:
         """
         return float((self.weights * 2 * (np.sqrt(1 + residuals**2) - 1)).sum() / len(self.weights))
 
+    def loss_part(self, samples: Floats, part: slice) -> float:
+        """The loss of some of the targets alone, such as a case's; samples of shape (seeds, M)."""
+        chosen = Yardstick(self.targets[part], self.errors[part], self.weights[part])
+        scaled: Floats = chosen.weights * len(chosen.weights) / chosen.weights.sum()
+        return Yardstick(chosen.targets, chosen.errors, scaled).loss(samples[:, part])
+
     def pull(self, residuals: Floats) -> Floats:
         """Weights with which least squares has the same gradient as the loss."""
         pulled: Floats = self.weights / np.sqrt(1 + residuals**2)
