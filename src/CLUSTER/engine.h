@@ -16,6 +16,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "fix.h"
+#include "modify.h"
 #include "pointers.h"
 #include "utils.h"
 
@@ -37,6 +38,36 @@ inline void use_hash_map(Atom *atom, const Domain *domain)
     atom->map_init();
     atom->map_set();
   }
+}
+
+inline Region *region_of(Domain *domain, const std::string &id)
+{
+  return domain->get_region_by_id(id);
+}
+
+inline bool any_in_both(LAMMPS *lmp, int groupbit, int other)
+{
+  int mine = 0, any;
+  for (int i = 0; i < lmp->atom->nlocal; i++)
+    if ((lmp->atom->mask[i] & groupbit) && (lmp->atom->mask[i] & other)) mine = 1;
+  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, lmp->world);
+  return any;
+}
+
+// What there is in the scene that changes or binds clusters behind the back of their breakups and merges; empty if
+// there is nothing.
+inline std::string not_for_clusters(LAMMPS *lmp, int groupbit)
+{
+  if (lmp->domain->triclinic) return "triclinic boxes";
+  if (lmp->atom->molecular != Atom::ATOMIC) return "molecules: use an atom style without bonds";
+  if (lmp->kokkos) return "KOKKOS: run without its suffix and its -k switch";
+  for (const auto &fix : lmp->modify->get_fix_list()) {
+    const std::string name = fmt::format("fix {} {}", fix->style, fix->id);
+    if (fix->rigid_flag && any_in_both(lmp, groupbit, fix->groupbit))
+      return name + ": clusters are no rigid bodies";
+    if (fix->diam_flag) return name + ", which changes diameters";
+  }
+  return "";
 }
 
 // how far beyond its part of the box a rank sees every cluster, where the pair style and the user ask for these cutoffs,

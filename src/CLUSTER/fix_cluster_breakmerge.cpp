@@ -6,6 +6,7 @@
 
 #include "cell_averages.h"
 #include "fix_drag_cluster.h"
+#include "granular_walls.h"
 #include "style_arguments.h"
 
 #include "atom.h"
@@ -36,10 +37,10 @@ FixClusterBreakMerge::FixClusterBreakMerge(LAMMPS *lmp, int narg, char **arg) :
     nst(NstReading::PARTICLE), nsmf(NsmfReading::EMMS), up(UpReading::OWN), ncc_factor(1.0), term_st(true),
     term_cc(true), term_mf(true), test(ALWAYS), hysteresis(0.26), breaking(true), merging(true),
     break_refused(false), merge_tolerance(0.01), gravity(9.81), gravity_axis(2), claim_max(0.0), planar(true),
-    spacing(2.0), drag(nullptr), pairs(lmp), count(nullptr), nmax_check(0), stable(nullptr), power(nullptr),
-    ncontacts(nullptr), contact_force(0.0), suitor(nullptr), needs(nullptr), room(nullptr), proceeds(nullptr),
-    comm_stage(CONTACTS), totals{}, newborn_tags(lmp), output{}, output_step(-1), start_counted(false),
-    merging_now(false)
+    spacing(2.0), drag(nullptr), region(nullptr), pairs(lmp), count(nullptr), nmax_check(0), stable(nullptr),
+    power(nullptr), ncontacts(nullptr), contact_force(0.0), suitor(nullptr), needs(nullptr), room(nullptr),
+    proceeds(nullptr), comm_stage(CONTACTS), totals{}, newborn_tags(lmp), output{}, output_step(-1),
+    start_counted(false), merging_now(false)
 {
   force_reneighbor = 1;
   next_reneighbor = -1;
@@ -63,7 +64,6 @@ FixClusterBreakMerge::FixClusterBreakMerge(LAMMPS *lmp, int narg, char **arg) :
                "Fix {} requires a 3-d simulation (clusters are spheres): for motion in a plane "
                "use dimension 3 with 'plane xz'",
                style);
-  if (domain->triclinic) error->all(FLERR, "Fix {} does not support triclinic boxes", style);
   if (!atom->tag_enable) error->all(FLERR, "Fix {} requires atom IDs", style);
   if (force->pair == nullptr) error->all(FLERR, "Fix {} must be defined after the pair_style command", style);
 
@@ -161,6 +161,7 @@ void FixClusterBreakMerge::parse(StyleArguments &args)
       gravity = args.positive("gravity g", "acceleration");
       gravity_axis = args.choice("gravity axis", {"x", "y", "z"});
     } else if (keyword == "claim") claim_max = args.positive(keyword, "length");
+    else if (keyword == "region") region_id = args.word("region ID");
     else if (keyword == "plane") planar = args.choice(keyword, {"xz", "none"}) == 0;
     else if (keyword == "spacing") {
       spacing = args.number(keyword, "a number >= 1");
@@ -249,7 +250,10 @@ void FixClusterBreakMerge::init()
 
   check_order();
   find_drag();
+  find_region();
   make_rules();
+  const std::string foreign = not_for_clusters(lmp, groupbit);
+  if (!foreign.empty()) error->all(FLERR, "{} does not support {}", me, foreign);
   pairs.find(me, groupbit, largest_diameter());
   if (looks_at_contacts()) pairs.expect_contacts(next_check(update->ntimestep));
   check_room();
@@ -264,6 +268,27 @@ void FixClusterBreakMerge::init()
         me, claim_max, sites, limits.lo, MOST_SITES);
   const int axis0 = planar ? 0 : -1, axis1 = planar ? 2 : -1;
   lattices = std::make_unique<Lattices>(axis0, axis1, claim_max / finest + 1.0);
+}
+
+/* ----------------------------------------------------------------------
+   fragments stay within non-periodic sides of the box; other walls must be told
+------------------------------------------------------------------------- */
+
+void FixClusterBreakMerge::find_region()
+{
+  region = nullptr;
+  if (!region_id.empty()) {
+    region = region_of(domain, region_id);
+    if (!region) error->all(FLERR, "Fix {} {}: region ID {} does not exist", style, id, region_id);
+    return;
+  }
+  const std::string wall = breaking ? wall_inside_the_box(lmp, planar) : "";
+  if (!wall.empty())
+    error->all(
+        FLERR,
+        "Fix {} {} does not see {}, and would place fragments behind it: let a fixed side of the box be that "
+        "wall, or give the keyword region with the ID of a region within the walls",
+        style, id, wall);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -25,6 +25,7 @@ FixStyle(cluster/breakmerge,FixClusterBreakMerge);
 namespace LAMMPS_NS {
 class CellAverages;
 class FixDragCluster;
+class Region;
 class StyleArguments;
 
 class FixClusterBreakMerge : public EngineFix {
@@ -108,9 +109,11 @@ class FixClusterBreakMerge : public EngineFix {
   double claim_max;
   bool planar;    // fragments placed in the xz plane
   double spacing;
+  std::string region_id;    // fragments are placed inside of it
 
   // ---- what init() finds or derives
   FixDragCluster *drag;
+  Region *region;
   GranularPairs pairs;
   std::unique_ptr<CellAverages> averages;
   std::unique_ptr<ClusterDEM::Lattices> lattices;
@@ -198,11 +201,13 @@ class FixClusterBreakMerge : public EngineFix {
   void parse_kind(StyleArguments &);
   void make_rules();
   void find_drag();
+  void find_region();
   void check_order();
   void check_room();
 
   // fix_cluster_breakmerge_check.cpp: what holds now
   int particle_count(int i);
+  void check_size(int i);
   bool looks_at_contacts() const { return looks_at_power() || merging || test != ALWAYS; }
   void size_scratch();
   void free_scratch();

@@ -56,6 +56,23 @@ int FixClusterBreakMerge::particle_count(int i)
   return n.n;
 }
 
+/* ----------------------------------------------------------------------
+   mass and diameter are this fix's to change
+------------------------------------------------------------------------- */
+
+void FixClusterBreakMerge::check_size(int i)
+{
+  const int n = particle_count(i);
+  const double d = array_atom[i][1];
+  if (std::fabs(2.0 * atom->radius[i] - d) > 1.0e-6 * d ||
+      std::fabs(atom->rmass[i] - geometry(i).mass(n)) > 1.0e-6 * atom->rmass[i])
+    error->one(
+        FLERR,
+        "Fix {} {}: cluster {} of {} particles has diameter {:.10g} and mass {:.10g} at step {}: another command "
+        "changes diameters or masses",
+        style, id, atom->tag[i], n, 2.0 * atom->radius[i], atom->rmass[i], update->ntimestep);
+}
+
 /* ---------------------------------------------------------------------- */
 
 void FixClusterBreakMerge::free_scratch()
@@ -108,7 +125,7 @@ void FixClusterBreakMerge::measure()
   size_scratch();
   check_finite();
   for (int i = 0; i < atom->nlocal; i++)
-    if (atom->mask[i] & groupbit) particle_count(i);
+    if (atom->mask[i] & groupbit) check_size(i);
   contact_force = 0.0;
   if (looks_at_contacts()) add_up_contacts();
   if (term_st || local_umf()) drag->prepare();

@@ -12,6 +12,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "force.h"
+#include "region.h"
 #include "update.h"
 
 #include <algorithm>
@@ -162,6 +163,7 @@ void FixClusterBreakMerge::make_room()
       if (dot(d, d) < reach * reach) obstacles[k].push_back({d, radius[i]});
     });
 
+  if (region) region->prematch();
   for (std::size_t k = 0; k < events.size(); k++) place(events[k], obstacles[k]);
 }
 
@@ -176,6 +178,11 @@ void FixClusterBreakMerge::place(Event &e, const std::vector<Obstacle> &obstacle
       walls.lo[axis] = wall ? domain->boxlo[axis] - e.body.x[axis] : -INFINITY;
       walls.hi[axis] = wall ? domain->boxhi[axis] - e.body.x[axis] : INFINITY;
     }
+    if (region)
+      walls.inside = [&](const Vec3 &p, double radius) {
+        const Vec3 q = e.body.x + p;
+        return region->match(q[0], q[1], q[2]) && region->surface(q[0], q[1], q[2], radius) == 0;
+      };
     const Turn turn(atom->tag[e.i], 0, planar ? 2 : 1, update->ntimestep / nevery);
     const int n = count[e.i] + (e.j < 0 ? 0 : count[e.j]);
     const int wanted = e.plan.pieces();

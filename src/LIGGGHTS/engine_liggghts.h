@@ -193,6 +193,20 @@ inline void use_hash_map(Atom *atom, const Domain *domain)
   }
 }
 
+inline Region *region_of(Domain *domain, const std::string &id)
+{
+  const int k = domain->find_region(id.c_str());
+  return k < 0 ? nullptr : domain->regions[k];
+}
+
+// what binds clusters behind the back of their breakups and merges
+inline std::string not_for_clusters(LAMMPS *lmp, int)
+{
+  if (lmp->domain->triclinic) return "triclinic boxes";
+  if (lmp->atom->molecular) return "molecules: use an atom style without bonds";
+  return "";
+}
+
 // LIGGGHTS sends a cluster only over half of the cutoff, half of the skin and its own radius: enough for contacts
 inline double ghost_reach(double pair_cutoff, double user_cutoff, double skin)
 {

@@ -8,6 +8,7 @@
 #include "vector3.h"
 
 #include <algorithm>
+#include <functional>
 #include <tuple>
 #include <vector>
 
@@ -108,11 +109,12 @@ struct Obstacle {
 };
 struct Walls {    // room along each axis; infinite where there is no wall
   Vec3 lo, hi;
+  std::function<bool(const Vec3 &, double)> inside = nullptr;    // a shape that holds the whole sphere
   bool contains(const Vec3 &p, double radius) const
   {
     for (int k = 0; k < 3; k++)
       if (p[k] - radius < lo[k] || p[k] + radius > hi[k]) return false;
-    return true;
+    return !inside || inside(p, radius);
   }
 };
 
