@@ -23,9 +23,9 @@ PAIR = "pair_style gran/cluster 10.0 0.3 0.0 cutoff 1.5876e-3\npair_coeff * *"
 LINE = re.compile(r"^\s*([\d,]+) \([^)]*\)\s+\S*?:(\S.*?)(?: \[.*\])?$")
 
 
-def counted(folder: Path, motion: str, refresh: int, steps: int) -> dict[str, int]:
+def counted(folder: Path, motion: str, drag: str, steps: int) -> dict[str, int]:
     """Instructions of each function in one run."""
-    script = SCRIPT.format(atoms="cluster", motion=motion, pair=PAIR, ours=DRAG.format(refresh), steps=steps)
+    script = SCRIPT.format(atoms="cluster", motion=motion, pair=PAIR, ours=drag, steps=steps)
     (folder / "in.lmp").write_text(script)
     out = folder / "callgrind.out"
     # the wrapper is a shell script: its last line starts the executable, which is what is to be counted
@@ -70,7 +70,7 @@ def main() -> None:
             ("nve/cluster, drag held for 50", TOGETHER, 50),
         ):
             try:
-                few, many = (counted(folder, motion, refresh, steps) for steps in STEPS)
+                few, many = (counted(folder, motion, DRAG.format(refresh), steps) for steps in STEPS)
             except RuntimeError as error:
                 print(f"{title}: not run ({str(error).strip().splitlines()[-1]})")
                 continue

@@ -15,7 +15,7 @@
 
 using namespace LAMMPS_NS;
 
-static constexpr double MOST_POINTS = 1.0e15;
+static constexpr double MOST = 1.0e15;    // a count that a double holds
 
 static std::string lower(std::string word)
 {
@@ -169,7 +169,8 @@ void VtkHeader::check_grid()
     auto &x = planes[axis];
     if (dimensions[axis] == 0) throw std::runtime_error("no DIMENSIONS before POINT_DATA");
     all *= static_cast<double>(dimensions[axis]);
-    if (all > MOST_POINTS) throw std::runtime_error("DIMENSIONS give more than 1e15 points");
+    if (all > static_cast<double>(length))    // before there is memory for them
+      throw std::runtime_error("DIMENSIONS give more points than the file has bytes");
     if (even)
       for (std::int64_t k = 0; k < dimensions[axis]; k++) x.push_back(origin[axis] + k * spacing[axis]);
     if (x.empty()) throw std::runtime_error("no " + name + " before POINT_DATA");
@@ -228,7 +229,6 @@ void VtkHeader::read_fields(const Words &words)
   for (std::int64_t k = integer(words, 2); k > 0; k--) {
     if (!next(one)) throw std::runtime_error("the file ends within '" + join(words) + "'");
     const std::int64_t each = integer(one, 1), n = integer(one, 2);
-    if (each < 0 || n < 0) throw std::runtime_error("'" + join(one) + "' (must be: name components tuples type)");
     if (section == NOWHERE && (one[0] == "TIME" || one[0] == "TimeValue") && each * n == 1) {
       file.time_ = numbers(1, word(one, 3), one[0])[0];
       file.has_time_ = true;
@@ -254,7 +254,9 @@ void VtkHeader::array(const std::string &name, std::int64_t each, std::int64_t n
       throw std::runtime_error(what + " is of type " + printable(type) + " (must be float or double)");
     file.place_[quantity] = {in.tellg(), bytes_of(type)};
   }
-  pass(each * n, type, "array " + name);
+  if (static_cast<double>(each) * static_cast<double>(n) > 8.0 * static_cast<double>(length))    // not even bits
+    throw std::runtime_error("the file ends within array " + printable(name));
+  pass(each * n, type, "array " + printable(name));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -317,7 +319,7 @@ double VtkHeader::number(const Words &words, std::size_t k) const
 std::int64_t VtkHeader::integer(const Words &words, std::size_t k) const
 {
   const double value = number(words, k);
-  if (value != std::floor(value) || std::fabs(value) > MOST_POINTS)
-    throw std::runtime_error("'" + join(words) + "': " + printable(words[k]) + " is no integer up to 1e15");
+  if (value != std::floor(value) || !(value >= 0.0 && value <= MOST))
+    throw std::runtime_error("'" + join(words) + "': " + printable(words[k]) + " is no integer from 0 to 1e15");
   return static_cast<std::int64_t>(value);
 }

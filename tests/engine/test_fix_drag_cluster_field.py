@@ -441,6 +441,14 @@ def frames(*times, **change):
     return write_it
 
 
+def huge(folder):
+    """A header that would ask for 16 GB."""
+    (folder / "gas.vtk").write_text(
+        "# vtk DataFile Version 3.0\nhuge\nBINARY\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2000000000 1 1\n"
+        "ORIGIN 0 0 0\nSPACING 1 1 1\nPOINT_DATA 2000000000\n"
+    )
+
+
 RHO = {"density": 1.2}
 BAD = [
     (None, "gas.vtk", "field gas.vtk: the file cannot be opened"),
@@ -456,6 +464,8 @@ BAD = [
     (spoiled(replace=[("velocity double", "speed double")]), "gas.vtk", "no array velocity in POINT_DATA"),
     (spoiled(replace=[("POINT_DATA 25", "CELL_DATA 25")]), "gas.vtk", "array velocity is at cells (CELL_DATA)"),
     (spoiled(replace=[("POINT_DATA 25", "POINT_DATA 24")]), "gas.vtk", "'POINT_DATA 24' does not fit DIMENSIONS, which give 25"),
+    (huge, "gas.vtk", "DIMENSIONS give more points than the file has bytes"),
+    (spoiled(replace=[("DIMENSIONS 5", "DIMENSIONS -5")]), "gas.vtk", "-5 is no integer from 0 to 1e15"),
     (spoiled(binary=True, cut=-40), "gas.vtk", "the file ends within array velocity: 561 of 600 bytes"),
     (spoiled(cut=-9), "gas.vtk", "the file ends within array velocity: 71 of 75 numbers"),
     (spoiled(replace=[("VECTORS velocity double\n0", "VECTORS velocity double\nzero")]), "gas.vtk",

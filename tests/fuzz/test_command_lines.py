@@ -3,9 +3,11 @@
 import os
 import re
 
+import numpy as np
 import pytest
 from command_lines import COMMANDS, lines
 from fork_server import Server
+from gas_files import write_field
 from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
 from lammps_run import clusters, head, pair
@@ -52,6 +54,9 @@ ENGINE = ("Lost atoms", "Non-numeric atom coords", "out of range atoms", "Non-nu
 def server(tmp_path_factory):
     folder = tmp_path_factory.mktemp("fuzz")
     (folder / "gas.txt").write_text("0 0 0 2\n0.04 0 0 3\n")
+    x = np.array([0.0, 0.01, 0.02, 0.03])
+    for name, time in (("gas.vtk", None), ("gas.0.vtk", 0.0), ("gas.1.vtk", 1.0)):
+        write_field(folder / name, (x, x[:1], x), [0, 0, 2], time=time)
     server = Server(folder, SCENE)
     yield server
     server.close()
