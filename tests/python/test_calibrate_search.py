@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from clusterdem.calibrate.figure import draw_fit
 from clusterdem.calibrate.fit import carry_out
 from clusterdem.calibrate.identify import identify, in_words
 from clusterdem.calibrate.local import explore
@@ -227,3 +228,24 @@ def test_a_stage_is_what_the_model_gets():
     )
     carry_out(study, Noting(exponential))
     assert seen == {(), (("height", "1"),)}
+
+
+@pytest.mark.parametrize(
+    ("parameters", "start"),
+    [
+        ((Choice("shape", ("steps", "grows")),), {"shape": "steps"}),
+        ((Real("a", 10, 1000, log=True),), {"a": 50.0}),
+    ],
+    ids=["choices alone", "one number alone"],
+)
+def test_studies_of_one_kind_of_parameter(parameters, start):
+    """The sampler wants both kinds; what a study lacks is made up and does nothing. The report is drawn for either."""
+
+    def law(point):
+        return exponential({**TRUE, **point})
+
+    local = Local({}, (1, 2, 3), None)
+    study = study_of(exponential(TRUE), parameters, {"known": start}, trials=12, local=local)
+    fit = carry_out(study, Growth(law))
+    assert fit.best.point == {"shape": "grows"} or fit.best.point["a"] == pytest.approx(TRUE["a"], rel=0.1)
+    assert draw_fit(fit) is not None and in_words(fit.identified) is not None

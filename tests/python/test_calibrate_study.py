@@ -81,6 +81,7 @@ def test_what_a_study_says(read):
         ("trials = 4", "trials = 0", ["search.trials = 0", "whole number, 1 or more"]),
         ("trials = 4", "promote = 1.5", ["search.promote = 1.5", "at most 1"]),
         ("trials = 4", "tries = 4", ["search: unknown key 'tries'"]),
+        ("[confirm]", "[local]\nchoices = 1\n[confirm]", ["local.choices = 1", "true or false"]),
         ("trials = 4", "population = 3", ["search.population = 3", "4 points or more"]),
         ("trials = 4", "seeds = 1", ["search.seeds = 1", "fewer than 2"]),
         ("trials = 4", "limit = -1", ["search.limit = -1", "whole number, 1 or more"]),

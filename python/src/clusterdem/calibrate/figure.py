@@ -89,7 +89,7 @@ def _parameters(panel: Axes, fit: Fit) -> None:
 
 def _correlation(panel: Axes, fit: Fit) -> None:
     found = fit.identified
-    if found is None:
+    if found is None or not found.names:
         panel.set_visible(False)
         return
     image = panel.imshow(found.correlation, cmap="RdBu_r", vmin=-1, vmax=1)

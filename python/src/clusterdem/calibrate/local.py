@@ -76,7 +76,8 @@ def explore(
             unit[index] = min(max(unit[index] + side, 0.0), 1.0)
             either.append(moved(parameters, point, unit))
         pairs.append((either[0], either[1]))
-    others = [(one, option) for one in choices(parameters) for option in one.options if option != point[one.name]]
+    asked_choices = choices(parameters) if stage.choices else []
+    others = [(one, option) for one in asked_choices for option in one.options if option != point[one.name]]
     asked = [point, *(p for pair in pairs for p in pair), *(point | {one.name: option} for one, option in others)]
     answers = model.observe([(p, seed) for p in asked for seed in stage.seeds], stage)
     residuals = np.array([yardstick.residuals(numbers) for numbers in answers])

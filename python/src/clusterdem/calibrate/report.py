@@ -79,7 +79,7 @@ def _choices(fit: Fit) -> list[str]:
             trials = [t for t in fit.trials if t.point[parameter.name] == option]
             whole = [trial.loss for trial in trials if trial.whole]
             least = f"{min(whole):.3f}" if whole else f"none with all seeds, of {len(trials)}"
-            flip = "the fit"
+            flip = "the fit" if fit.best.point[parameter.name] == option else ""
             for one in fit.near.flips if fit.near else ():
                 if (one.parameter, one.option) == (parameter.name, option):
                     flip = f"{one.change:+.3f} ± {one.error:.3f}"
@@ -115,7 +115,7 @@ def _targets(fit: Fit) -> list[str]:
 
 def _told(fit: Fit) -> list[str]:
     found = fit.identified
-    if found is None:
+    if found is None or not found.names:
         return []
     lines = ["## What the data tell of the parameters", "", *(f"- {sentence}" for sentence in in_words(found)), ""]
     rows = [

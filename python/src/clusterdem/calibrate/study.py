@@ -105,10 +105,13 @@ class Local(Stage):
         Step to either side, as a share of a parameter's range.
     polish : int
         Gauss-Newton steps to be tried.
+    choices : bool
+        Whether other options of the choices are tried, too.
     """
 
     step: float = 0.08
     polish: int = 1
+    choices: bool = True
 
 
 @dataclass(frozen=True)
@@ -359,7 +362,7 @@ class _Reader(StudyReader):
         given = self.subtable(name)
         keys = {
             "search": (*STAGE_KEYS, "trials", "population", "promote"),
-            "local": (*STAGE_KEYS, "step", "polish"),
+            "local": (*STAGE_KEYS, "step", "polish", "choices"),
             "confirm": (*STAGE_KEYS, "best", "starts"),
         }[name]
         self.only(keys, given, f"{name}: ")
@@ -384,7 +387,10 @@ class _Reader(StudyReader):
         if type(polish) is not int or polish < 0:
             raise self.refuse("local.polish", polish, "must be a whole number, 0 or more")
         step = self.share("local.step", given.get("step", Local.step))
-        return Local(stage.variables, stage.seeds, stage.limit, step, polish)
+        choices = given.get("choices", Local.choices)
+        if not isinstance(choices, bool):
+            raise self.refuse("local.choices", choices, "must be true or false")
+        return Local(stage.variables, stage.seeds, stage.limit, step, polish, choices)
 
     def confirm(self, stage: Stage, starts: Mapping[str, Point]) -> Confirm:
         given = self.subtable("confirm")
