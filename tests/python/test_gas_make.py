@@ -37,8 +37,32 @@ def image(block, cells=False):
     return grid
 
 
+def hexahedra(block, cells=False):
+    return image(block, cells).cast_to_structured_grid().cast_to_unstructured_grid()
+
+
+def skewed(block):
+    """Hexahedra whose inner points are anywhere near their place."""
+    mesh = hexahedra(block)
+    inner = np.all((mesh.points > 1e-6) & (mesh.points < np.array(LENGTHS) - 1e-6), axis=1)
+    away = np.random.default_rng(5).uniform(-0.2, 0.2, mesh.points.shape) * LENGTHS / np.array(block.counts)
+    mesh.points = np.array(mesh.points + inner[:, None] * away)
+    mesh.point_data["U"] = linear(mesh.points)
+    return mesh
+
+
+def polyhedra(block):
+    """The same hexahedra, each given by its faces, as OpenFOAM's general cells are."""
+    mesh = hexahedra(block)
+    faces = ((0, 4, 7, 3), (1, 2, 6, 5), (0, 1, 5, 4), (3, 7, 6, 2), (0, 3, 2, 1), (4, 5, 6, 7))
+    stream = [[31, 6, *(v for face in faces for v in (4, *corners[list(face)]))] for corners in mesh.cells_dict[12]]
+    poly = pv.UnstructuredGrid(np.ravel(stream), np.full(mesh.n_cells, 42), np.array(mesh.points))
+    poly.cell_data["U"] = linear(block.centres)
+    return poly
+
+
 def tetrahedra(block, cells=False):
-    mesh = image(block).cast_to_unstructured_grid().triangulate()
+    mesh = hexahedra(block).triangulate()
     if cells:
         mesh.clear_data()
         mesh.cell_data["U"] = linear(mesh.cell_centers().points)
@@ -122,9 +146,14 @@ def saved(name, make):
 
 
 SOURCES = {
-    "hexahedra, points": (saved("a.vtu", lambda: image(Block()).cast_to_unstructured_grid()), EXACT),
+    "hexahedra, points": (saved("a.vtu", lambda: hexahedra(Block())), EXACT),
+    "hexahedra, skewed": (
+        saved("a.vtu", lambda: skewed(Block((6, 3, 8)))),
+        1e-8,
+    ),  # VTK finds the place in each by Newton's method
+    "polyhedra, cells": (saved("a.vtu", lambda: polyhedra(Block())), EXACT),
     "hexahedra, cells": (
-        saved("a.vtk", lambda: image(Block(), cells=True).cast_to_unstructured_grid()),
+        saved("a.vtk", lambda: hexahedra(Block(), cells=True)),
         EXACT,
     ),
     "tetrahedra, points": (saved("a.vtu", lambda: tetrahedra(Block())), EXACT),
@@ -200,7 +229,7 @@ def smooth(points):
 
 def smooth_mesh(n, tetra, cells):
     block = Block((3 * n, n, 6 * n))
-    mesh = image(block).cast_to_unstructured_grid()
+    mesh = hexahedra(block)
     mesh = mesh.triangulate() if tetra else mesh
     mesh.clear_data()
     if cells:
@@ -283,6 +312,19 @@ def test_planes(tmp_path, command):
         assert gas.shape == (4, 1, 5)
         np.testing.assert_allclose(gas["velocity"][..., 0], value, rtol=1e-9)
         np.testing.assert_allclose(gas["velocity"][:, 0, 0, 1], gas.axes[0], atol=tolerance)
+
+
+@pytest.mark.parametrize("triangles", [False, True])
+def test_plane_mesh(tmp_path, command, triangles):
+    """A 2-D mesh in x and z with values in cells, wherever its y."""
+    mesh = pv.ImageData(dimensions=(7, 1, 9), spacing=(0.05, 1, 0.075), origin=(0, 0.02, 0)).cast_to_unstructured_grid()
+    mesh = mesh.triangulate() if triangles else mesh
+    mesh.cell_data["U"] = linear(mesh.cell_centers().points)
+    mesh.save(tmp_path / "a.vtu")
+    assert command("gas", "make", tmp_path / "a.vtu", "-o", tmp_path / "g.vtk", "--grid", 9, 11)[0] == 0
+    gas = read_field(tmp_path / "g.vtk")
+    assert gas.shape == (9, 1, 11)
+    np.testing.assert_allclose(gas["velocity"].reshape(-1, 3), linear(points_of(gas)), atol=1e-6)
 
 
 def test_own_grid_is_kept(tmp_path, command):
