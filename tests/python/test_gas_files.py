@@ -119,6 +119,7 @@ def test_a_spoilt_file_is_refused_or_read_never_worse(tmp_path, data, ascii):
 
 HEAD = "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET RECTILINEAR_GRID\nDIMENSIONS 2 1 1\n"
 AXES = "X_COORDINATES 2 double\n0 1\nY_COORDINATES 1 double\n0\nZ_COORDINATES 1 double\n0\n"
+DATA = "POINT_DATA 2\nVECTORS velocity double\n1 2 3 4 5 6\n"
 
 
 @pytest.mark.parametrize(
@@ -128,6 +129,11 @@ AXES = "X_COORDINATES 2 double\n0 1\nY_COORDINATES 1 double\n0\nZ_COORDINATES 1 
         (HEAD.replace("RECTILINEAR_GRID", "POLYDATA"), "RECTILINEAR_GRID or STRUCTURED_POINTS"),
         (HEAD.replace("ASCII", "XML"), "third line must be ASCII or BINARY"),
         (HEAD + AXES, "no array velocity"),
+        (
+            HEAD.replace("RECTILINEAR_GRID\nDIMENSIONS 2", "STRUCTURED_POINTS\nDIMENSIONS 1000000000"),
+            "no array velocity",
+        ),
+        (HEAD + AXES + "POINT_DATA 2\nFIELD more 1\nvelocity 3 1 double\n1 2 3\n", "must have 2 tuples"),
         (HEAD + AXES + "POINT_DATA 3\n", "POINT_DATA 3 does not fit DIMENSIONS 2 1 1"),
         (HEAD + AXES + "POINT_DATA 2\nSCALARS velocity double 1\nLOOKUP_TABLE default\n1 2\n", "3 components"),
         (HEAD + AXES + "POINT_DATA 2\nVECTORS velocity double\n1 2 3\n", "ends inside an array"),
@@ -135,7 +141,7 @@ AXES = "X_COORDINATES 2 double\n0 1\nY_COORDINATES 1 double\n0\nZ_COORDINATES 1 
         (HEAD + AXES + "POINT_DATA 2\nVECTORS velocity double\n1 2 3 4 5 6 7\n", "7 numbers where 6 must stand"),
         (HEAD + AXES + "POINT_DATA 2\nVECTORS velocity long_double\n", "unknown type"),
         (HEAD + AXES + "CELL_DATA 1\nVECTORS velocity double\n1 2 3\n", "cells have one"),
-        (HEAD + AXES.replace("X_COORDINATES 2 double\n0 1", ""), "needs X_COORDINATES with 2 numbers"),
+        (HEAD + AXES.replace("X_COORDINATES 2 double\n0 1", "") + DATA, "needs X_COORDINATES with 2 numbers"),
         (HEAD.replace("2 1 1", "2 0 1"), "DIMENSIONS must be 1 or more"),
     ],
 )

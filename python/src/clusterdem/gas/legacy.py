@@ -145,7 +145,7 @@ class _Body:
             if key in self.arrays and len(words) == 2:
                 here, count = self.arrays[key], self._count(key, scan.whole(words[1]))
             elif key == "FIELD" and len(words) == 3:
-                self._fields(scan.whole(words[2]), here)
+                self._fields(scan.whole(words[2]), here, count)
             elif here is not None and key in COMPONENTS and len(words) == 3:
                 here[unquote(words[1])] = self._array(count, COMPONENTS[key], words[2])
             elif here is not None and key == "SCALARS" and len(words) in (3, 4):
@@ -154,6 +154,8 @@ class _Body:
                 scan.numbers(4 * scan.whole(words[2]), "unsigned_char" if scan.binary else "float")
             else:
                 self._geometry(key, words)
+        if not any(self.arrays.values()):  # with one, DIMENSIONS are no larger than what the file holds
+            raise scan.fail("has no array velocity, nor any other")
         return LegacyGrid(self._points(), self.arrays["POINT_DATA"], self.arrays["CELL_DATA"], self.time)
 
     def _geometry(self, key: str, words: list[str]) -> None:
@@ -192,7 +194,7 @@ class _Body:
         components = self.scan.whole(words[3]) if len(words) == 4 else 1
         here[unquote(words[1])] = self._array(count, components, words[2])
 
-    def _fields(self, number: int, here: dict[str, Floats] | None) -> None:
+    def _fields(self, number: int, here: dict[str, Floats] | None, count: int) -> None:
         """A block of arrays, each with its own size: field data, or further arrays of the points."""
         for _ in range(number):
             words = self.scan.words()
@@ -202,6 +204,8 @@ class _Body:
             if len(words) != 4:
                 raise self.scan.fail("an array of FIELD needs a line 'name components tuples type'")
             name, components, tuples = unquote(words[0]), self.scan.whole(words[1]), self.scan.whole(words[2])
+            if here is not None and tuples != count:
+                raise self.scan.fail(f"array {name} must have {count} tuples, one for each point or cell, not {tuples}")
             if words[3] in ("string", "bit", "variant"):
                 raise self.scan.fail(f"array {name} of type {words[3]} cannot be read")
             values = self._array(tuples, components, words[3])
