@@ -40,6 +40,7 @@ def to_manual(app: Sphinx, env: BuildEnvironment, node: nodes.Element, text: nod
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
-    app.add_lexer("LAMMPS", LammpsLexer)
+    for name in LammpsLexer.aliases:
+        app.add_lexer(name, LammpsLexer)
     app.connect("missing-reference", to_manual)
     return {"parallel_read_safe": True}

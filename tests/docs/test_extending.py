@@ -130,7 +130,7 @@ def test_placement(extended: Path, tmp_path: Path) -> None:
     script += "fix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 2\n"
     size = "fix size all cluster/breakmerge 1 1e-4 2000 drag drag terms st merge no lattice square K "
     power = run(extended, tmp_path, script + size + "1.0\nrun 0\n" + write("f_size[4]")).dump()["f_size[4]"][0]
-    script += f"{size} {diameter(10.5) * power!r}\n"
+    script += f"{size} {diameter(10.5) * power:.17g}\n"
     end = run(extended, tmp_path, script + "timestep 1e-9\nrun 1\n" + write()).dump()
     assert len(end["x"]) == 9
     at = np.column_stack((end["x"], end["z"]))
