@@ -84,8 +84,8 @@ class Identified:
 
     @property
     def determined(self) -> list[bool]:
-        """Which parameters the data determine."""
-        return [bool(d < DETERMINED * PRIOR) for d in self.deviation]
+        """Which parameters the data determine: by curvature and misfit, and whatever the seeds."""
+        return [bool(d < DETERMINED * PRIOR) for d in np.hypot(self.deviation, self.scatter)]
 
     @property
     def twins(self) -> list[tuple[str, str, float]]:
