@@ -5,8 +5,8 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from checkout import BUILD, ROOT
 from command_blocks import command_blocks
-from conftest import BUILD, ROOT
 
 BLOCKS = command_blocks(ROOT)
 # the copy has the build of this checkout; Open MPI refuses root and more ranks than cores unless told

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import BUILD, ROOT, copy_sources
+from checkout import BUILD, ROOT, copy_sources
 from lammps_run import Run, clusters, diameter, head, pair, write
 
 EXAMPLES = ("drag_law", "size_law", "placement")
@@ -42,6 +42,8 @@ def objects_that_need(changed: set[str]) -> set[str]:
 @pytest.fixture(scope="module")
 def extended(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A tree with all three examples, its plugin in plugin/ and its new unit tests as new_tests."""
+    # objects of other sources than the copy's would be linked otherwise
+    subprocess.run(["cmake", "--build", BUILD, "--target", "clusterplugin"], check=True, capture_output=True)
     tree = copy_sources(tmp_path_factory.mktemp("extended"))
     changed = set()
     for example in EXAMPLES:

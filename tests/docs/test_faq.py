@@ -5,7 +5,7 @@ import re
 from collections.abc import Iterator
 
 import pytest
-from conftest import ROOT
+from checkout import ROOT
 
 ENTRY = re.compile(r"^`(.+)`\n: ", re.M)
 QUOTED = [match[1] for match in ENTRY.finditer((ROOT / "doc/faq.md").read_text(encoding="utf-8"))]

@@ -5,7 +5,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
-from conftest import ROOT
+from checkout import ROOT
 
 # what a browser loads by itself, as against links that a reader may click
 LOADED = {
