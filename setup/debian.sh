@@ -10,6 +10,9 @@ required_tools=(
   libopenmpi-dev:mpicxx
   libgtest-dev:gtest/gtest.h
   librandom123-dev:Random123/philox.h
+  pkg-config:pkg-config
+  zlib1g-dev:zlib.h
+  libzstd-dev:zstd.h
   python3-venv:python
   xz-utils:xz
 )
