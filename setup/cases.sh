@@ -1,6 +1,8 @@
 # The paper's cases and one of our own: run, map, compare.
 # shellcheck shell=bash
 
+map_grid=(30 30)
+
 verb_case1() { # the paper's case 1 with its maps: [--np N] [--engine liggghts] [-var NAME VALUE …]
   run_case case1 "$@"
 }
@@ -13,6 +15,13 @@ verb_case3() { # the paper's case 3, the same way
 
 verb_shear() { # a sheared crowd, where contacts decide breakups, the same way
   run_case shear "$@"
+}
+
+verb_scene() { # a scene of doc/scenes.md, the same way: NAME [--np N] [-var NAME VALUE …]
+  local name=${1:-}
+  [[ $name =~ ^(riser|feed|box3d|two_densities|jet)$ ]] || die "./run scene wants one of: riser feed box3d two_densities jet"
+  map_grid=(20 40) # cells must be wider than the clusters, and box3d is 20 mm wide
+  run_case "$@"
 }
 
 # run_case NAME [--np N] [--engine liggghts] [arguments of the engine…]: all that it writes goes to results/NAME (or -var
@@ -58,7 +67,7 @@ run_case() {
     -var outdir "$out" </dev/null
   # frames of LIGGGHTS hold no time: the last row of the table knows both
   [[ $engine == lmp ]] || dt=(--dt "$(awk '$1 > 0 { dt = $2 / $1 } END { print dt }' "$out/$name.N.txt")")
-  build/bin/clusterdem map "$out/$name".*.dump --grid 30 30 --out "$out" "${dt[@]}"
+  build/bin/clusterdem map "$out/$name".*.dump --grid "${map_grid[@]}" --out "$out" "${dt[@]}"
   [[ $name != case* ]] || build/bin/clusterdem compare "$out/$name".*.dump --case "$name" "${dt[@]}" # what was published
-  build/bin/clusterdem report "$out" --name "$name" "${dt[@]}"
+  build/bin/clusterdem report "$out" --name "$name" --grid "${map_grid[@]}" "${dt[@]}"
 }
