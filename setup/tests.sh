@@ -11,7 +11,7 @@ verb_test() { # all tests, or those of pytest's arguments: [--lammps newest] [py
   done
   set_up "$engine"
   # The report is opened in a real browser, the film is a real film; without these tools those tests skip.
-  (install_tools chromium:chromium ffmpeg:ffmpeg) || say "going on without them: the tests that need them skip"
+  (install_tools chromium:chromium ffmpeg:ffmpeg patch:patch) || say "going on without them: the tests that need them skip"
   [[ $engine == newest ]] || (set_up_liggghts) || say "going on without LIGGGHTS: the tests that compare with it skip"
   cd "$root"
   export CLUSTERDEM_LMP=$build/bin/lmp CLUSTERDEM_BUILD=$build
