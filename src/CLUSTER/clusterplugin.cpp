@@ -14,6 +14,7 @@
 #include "fix_drag_cluster.h"
 #include "fix_nve_cluster.h"
 #include "pair_gran_cluster.h"
+#include "replicate_cluster.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -34,6 +35,11 @@ template <class FixClass> static void *create_fix(void *lmp, int narg, char **ar
 static Pair *create_pair(LAMMPS *lmp)
 {
   return new PairGranCluster(lmp);
+}
+
+static Command *create_replicate(LAMMPS *lmp)
+{
+  return new ReplicateCluster(lmp);
 }
 
 static AtomVec *create_atom_vec(LAMMPS *lmp)
@@ -83,6 +89,12 @@ extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   plugin.name = "gran/cluster";
   plugin.info = "contact of particle clusters";
   plugin.creator.v1 = (lammpsplugin_factory1 *) &create_pair;
+  register_style(&plugin, lmp);
+
+  plugin.style = "command";
+  plugin.name = "replicate/cluster";
+  plugin.info = "copies of a box of particle clusters";
+  plugin.creator.v1 = (lammpsplugin_factory1 *) &create_replicate;
   register_style(&plugin, lmp);
 
   // The plugin interface knows no atom styles, but their table is open. An atom style outlives the unloading
