@@ -30,8 +30,8 @@ void FixClusterBreakMerge::pre_exchange()
 
   std::vector<NewbornTags::Birth> births;
   for (const Event &e : events)
-    if (e.plan.pieces() > 1) births.push_back({atom->tag[e.i], e.plan.pieces() - 1, 0, 0, 0});
-  newborn_tags.assign(births);
+    if (e.plan.pieces() > 1) births.push_back({static_cast<std::uint64_t>(atom->tag[e.i]), e.plan.pieces() - 1});
+  newborn_tags.assign(births, newborn_tags.highest_used() + 1.0);
 
   // newborns overwrite ghosts, so forget those first
   atom->map_clear();

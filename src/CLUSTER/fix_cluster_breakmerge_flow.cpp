@@ -13,9 +13,8 @@
 #include "error.h"
 #include "modify.h"
 
-#include <algorithm>
-#include <array>
-#include <numeric>
+#include <cmath>
+#include <cstdint>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -96,8 +95,8 @@ void FixClusterBreakMerge::check_part_of_box()
 }
 
 /* ----------------------------------------------------------------------
-   Clusters that came in since the last rebuild: count them, and number them above every ID ever used, in the order of
-   their places, whatever IDs they brought: those may have belonged to others, or depend on the ranks.
+   Clusters that came in since the last rebuild: count them, and number them above every ID ever used, in an order that
+   hangs on their places alone, whatever IDs they brought: those may have belonged to others, or depend on the ranks.
 ------------------------------------------------------------------------- */
 
 void FixClusterBreakMerge::welcome()
@@ -119,25 +118,35 @@ void FixClusterBreakMerge::welcome()
   number_by_place(mine);
 }
 
+/* ----------------------------------------------------------------------
+   Places mixed to numbers that are spread evenly wherever the clusters came in, so that the ranks share the work. Of a
+   place only what rounding does not touch counts.
+------------------------------------------------------------------------- */
+
+static std::uint64_t mixed(std::uint64_t z)
+{
+  z += 0x9e3779b97f4a7c15u;    // splitmix64
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+
 void FixClusterBreakMerge::number_by_place(const std::vector<int> &mine)
 {
-  using Place = std::array<double, 3>;
-  int n = 3 * static_cast<int>(mine.size());
-  std::vector<int> sizes(comm->nprocs), starts(comm->nprocs, 0);
-  MPI_Allgather(&n, 1, MPI_INT, sizes.data(), 1, MPI_INT, world);
-  std::partial_sum(sizes.begin(), sizes.end() - 1, starts.begin() + 1);
-
-  std::vector<Place> places, all((starts.back() + sizes.back()) / 3);
-  for (const int i : mine) places.push_back({atom->x[i][2], atom->x[i][1], atom->x[i][0]});
-  MPI_Allgatherv(places.data(), n, MPI_DOUBLE, all.data(), sizes.data(), starts.data(), MPI_DOUBLE, world);
-  std::sort(all.begin(), all.end());
-
-  const tagint before = newborn_tags.take(all.size());
-  atom->map_clear();
-  for (std::size_t k = 0; k < mine.size(); k++) {
-    const auto place = std::lower_bound(all.begin(), all.end(), places[k]);
-    atom->tag[mine[k]] = before + 1 + static_cast<tagint>(place - all.begin());
+  static constexpr double FINEST = 4294967296.0;    // parts of the box along an axis
+  std::vector<NewbornTags::Birth> births;
+  for (const int i : mine) {
+    std::uint64_t key = 0;
+    for (int axis = 0; axis < 3; axis++) {
+      const double share = (atom->x[i][axis] - domain->boxlo[axis]) / domain->prd[axis];
+      key = mixed(key ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(share * FINEST)));
+    }
+    births.push_back({key, 1});
   }
+  newborn_tags.assign(births, FINEST * FINEST);
+
+  atom->map_clear();
+  for (std::size_t k = 0; k < mine.size(); k++) atom->tag[mine[k]] = births[k].first;
   exchange(IDS, 1);
   atom->map_init();
   atom->map_set();

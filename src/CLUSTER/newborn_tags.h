@@ -2,42 +2,41 @@
    Cluster DEM for LAMMPS. Distributed under the GNU General Public License, version 2 or later.
 ------------------------------------------------------------------------- */
 
-// Atom IDs of newborn clusters: above every ID ever used, in the order of the parents' IDs, then of
-// the pieces, whatever the number of ranks. Memory and messages go with the births of one rank.
+// Atom IDs of new clusters: above every ID ever used, in the order of keys that say nothing of the ranks, such as the IDs of
+// parents, then of the pieces. A rank's memory and bytes go with its births, its messages with the logarithm of the ranks.
 
 #ifndef LMP_NEWBORN_TAGS_H
 #define LMP_NEWBORN_TAGS_H
 
-#include "pointers.h"
+#include "engine.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace LAMMPS_NS {
 
-class NewbornTags : protected Pointers {
+class NewbornTags : protected EnginePointers {
  public:
   struct Birth {
-    tagint parent;
+    std::uint64_t key;    // two births have two keys
     int newborns;
-    tagint first;    // out: the newborns are numbered from here
-    int proc, index;
+    tagint first = 0;    // out: the newborns are numbered from here
+    int index = 0, from = 0, at = 0;
   };
 
-  NewbornTags(class LAMMPS *lmp) : Pointers(lmp), highest(0) {}
+  NewbornTags(class LAMMPS *lmp) : EnginePointers(lmp), highest(0) {}
 
   void raise(tagint tag) { highest = tag > highest ? tag : highest; }
   tagint highest_used() const { return highest; }
 
-  // the highest ID used before; the next n belong to the caller, on all ranks alike
-  tagint take(bigint n);
-
-  // collective: sets first of every birth, and raises the highest ID used
-  void assign(std::vector<Birth> &births);
+  // collective: sets first of every birth, and raises the highest ID used. Keys lie below `range`, somewhat evenly:
+  // the ranks share the sorting by them.
+  void assign(std::vector<Birth> &births, double range);
 
  private:
   tagint highest;
+  void number(std::vector<Birth> &part) const;
   void check(bigint n) const;
-  static int number_bucket(int, char *, int &, int *&, char *&, void *);
 };
 
 }    // namespace LAMMPS_NS
