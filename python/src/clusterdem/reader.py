@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
+from .binary import BinarySource, is_binary
 from .errors import InputError
 from .frame import Box, Floats, Frame
 from .header import LARGEST, Header, read_header
@@ -99,18 +101,61 @@ def _check(frame: Frame) -> None:
                 raise InputError(frame.path, f"{letter} lies outside the box", frame.first_row + int(out[0]))
 
 
-def _read_frame(source: LineSource, header: Header, columns: Collection[str] | None) -> Frame:
-    first = source.line + 1
-    layout = _layout(header, source.path)
+class _TextFrames:
+    """The frames of a text dump, one after the other."""
+
+    def __init__(self, source: LineSource) -> None:
+        self._source = source
+
+    def header(self) -> Header | None:
+        return read_header(self._source)
+
+    def rows(self, header: Header, wanted: list[int]) -> list[Floats]:
+        first = header.names_line + 1
+        block = self._source.read_until(b"ITEM:", header.count)
+        return parse_rows(block, header.count, header.names, wanted, self._source.path, first)
+
+    def skip(self, header: Header) -> None:
+        self._source.read_until(b"ITEM:", header.count, keep=False)
+
+
+class _BinaryFrames:
+    """The frames of a binary dump, one after the other."""
+
+    def __init__(self, source: BinarySource) -> None:
+        self._source = source
+
+    def header(self) -> Header | None:
+        return self._source.read_header()
+
+    def rows(self, header: Header, wanted: list[int]) -> list[Floats]:
+        return self._source.read_rows(header, wanted)
+
+    def skip(self, header: Header) -> None:
+        self._source.read_rows(header, ())
+
+
+@contextmanager
+def _open_frames(path: str | Path) -> Iterator[_TextFrames | _BinaryFrames]:
+    if is_binary(path):
+        with open(path, "rb") as stream:
+            yield _BinaryFrames(BinarySource(stream, str(path)))
+    else:
+        with open_lines(path) as source:
+            yield _TextFrames(source)
+
+
+def _read_frame(
+    frames: _TextFrames | _BinaryFrames, header: Header, columns: Collection[str] | None, path: str
+) -> Frame:
+    layout = _layout(header, path)
     if columns is not None:
         always = {"x", "z", "mass", "diameter"}
         layout = {name: column for name, column in layout.items() if name in always or name in columns}
     indices = sorted({column.index for column in layout.values()})
-    block = source.read_until(b"ITEM:", header.count)
-    parsed = parse_rows(block, header.count, header.names, indices, source.path, first)
-    raw = dict(zip(indices, parsed))
+    raw = dict(zip(indices, frames.rows(header, indices)))
     values = {name: _values(column, raw[column.index]) for name, column in layout.items()}
-    frame = Frame(header.step, header.time, header.box, values, source.path, header.line, first)
+    frame = Frame(header.step, header.time, header.box, values, path, header.line, header.names_line + 1)
     _check(frame)
     return frame
 
@@ -137,7 +182,7 @@ def read_file(
     Parameters
     ----------
     path : str or Path
-        A LAMMPS or LIGGGHTS text dump; plain, .gz or .zst.
+        A LAMMPS or LIGGGHTS text dump, plain, .gz or .zst, or a binary one of LAMMPS.
     columns : collection of str, optional
         Columns to read besides x, z, mass and diameter; all by default. Absent ones are left out.
     share : (int, int), optional
@@ -149,23 +194,25 @@ def read_file(
     ------
     Frame
     """
-    with open_lines(path) as source:
+    name = str(path)
+    with _open_frames(path) as frames:
         number, last = 0, None
-        while (header := read_header(source)) is not None:
+        while (header := frames.header()) is not None:
             if last is not None and header.step <= last:
-                rule = f"frames must rise in time: step {header.step} comes after step {last}"
-                raise InputError(source.path, rule, header.line)
+                raise InputError(
+                    name, f"frames must rise in time: step {header.step} comes after step {last}", header.line or None
+                )
             last = header.step
             if number % share[1] == share[0]:
-                frame = _read_frame(source, header, columns)
+                frame = _read_frame(frames, header, columns, name)
                 if dt is not None and np.isnan(frame.time):
                     frame = replace(frame, time=frame.step * dt)
                 yield frame
             else:
-                source.read_until(b"ITEM:", header.count, keep=False)
+                frames.skip(header)
             number += 1
         if number == 0:
-            raise InputError(source.path, "is empty: a dump file must hold at least one frame", 1)
+            raise InputError(name, "is empty: a dump file must hold at least one frame", 1)
 
 
 def read_dumps(

@@ -9,7 +9,7 @@ from pathlib import Path
 from .errors import InputError
 from .reader import natural_order
 
-DUMP = re.compile(r"^(?P<name>.+?)\.(?:\d+\.)?dump(?:\.gz|\.zst)?$")
+DUMP = re.compile(r"^(?P<name>.+?)\.(?:\d+\.)?dump(?:\.gz|\.zst|\.bin)?$")
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ def find_run(path: str | Path, name: str | None = None) -> RunFolder:
             dumps.setdefault(found["name"], []).append(file)
     if name is None:
         if not dumps:
-            raise InputError(folder, "holds no dump file (NAME.STEP.dump, maybe .gz or .zst)")
+            raise InputError(folder, "holds no dump file (NAME.STEP.dump, maybe .gz, .zst or .bin)")
         if len(dumps) > 1:
             raise InputError(folder, f"holds several runs ({', '.join(sorted(dumps))}): choose one with --name")
         (name,) = dumps
