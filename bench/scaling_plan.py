@@ -115,7 +115,7 @@ def times(part: Part, ranks: int, machine: Machine, check_every: int, events: fl
     }
 
 
-REDUCTIONS_OF_A_CHECK = 10  # of a check with events and its rebuild, LAMMPS' own among them
+REDUCTIONS_OF_A_CHECK = 5  # of a check with events and its rebuild (bench/messages.py)
 BYTES_PER_CLUSTER = 500  # of memory, ghosts alike: bench/README.md, "Growth with size"
 BYTES_OF_A_RANK = 60e6  # of the process itself
 
@@ -142,7 +142,7 @@ def plan(clusters: float, ranks: int, aspects: list[float], machine: Machine, ch
     print(row("of the last", *(f"{1e3 * value:.3f}" for value in cost.values())))
 
 
-FRAME_BYTES = {"text": 170.0, "text, zstd": 75.0, "binary": 184.0, "restart": 96.0}  # per cluster; see doc/scaling.md
+FRAME_BYTES = {"text": 217.0, "text, zstd": 74.0, "binary": 176.0, "restart": 120.0}  # per cluster; see doc/scaling.md
 
 
 def files(clusters: float, ranks: int, machine: Machine) -> None:
@@ -175,7 +175,7 @@ def main() -> None:
     parser.add_argument("--every", type=int, default=10, help="steps between checks")
     parser.add_argument("--births", type=float, default=20.0, help="per cluster and second")
     parser.add_argument("--dt", type=float, default=1e-6, help="time step [s]")
-    parser.add_argument("--ns", type=float, default=60.0, help="per cluster and step on one rank [ns]")
+    parser.add_argument("--ns", type=float, default=65.0, help="per cluster and step on one rank [ns]")
     parser.add_argument("--latency", type=float, default=2e-6, help="of a message [s]")
     parser.add_argument("--bandwidth", type=float, default=5e8, help="of a rank's share of the network [bytes/s]")
     parser.add_argument("--files", type=float, default=1e11, help="of the file system [bytes/s]")
