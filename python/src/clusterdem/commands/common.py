@@ -20,7 +20,9 @@ def positive(text: str) -> float:
 
 def add_dumps(parser: argparse.ArgumentParser) -> None:
     """The dump files and what is needed to read them."""
-    parser.add_argument("dumps", nargs="+", metavar="DUMP", help="dump files (text, .gz and .zst too, or binary), any order")
+    parser.add_argument(
+        "dumps", nargs="+", metavar="DUMP", help="dump files (text, .gz and .zst too, or binary), any order"
+    )
     parser.add_argument("--dt", type=positive, metavar="S", help="timestep (s), for dumps that hold no time")
 
 
