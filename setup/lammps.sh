@@ -92,10 +92,10 @@ build_lammps() {
   version=$(lammps_date "$part/source/src/version.h")
   say "building LAMMPS $version (once; about 10 minutes on two cores)"
   compile_lammps "$part/source" "$part/build" "$log" "$@"
-  rm "$part/unpacked"
   # cmake leaves out a package whose library it does not find, and says so in its log alone.
   grep -qw custom/zstd <("$part/build/lmp" -h 2>&1 </dev/null) || die_with_log "$log" \
     "LAMMPS was built without compressed dumps: zlib, libzstd or pkg-config were not found."
+  rm "$part/unpacked"
   mv "$part/build/lmp" "$part/lmp"
   mv "$part/source/src" "$part/src"
   mv "$log" "$part/build.log"

@@ -21,7 +21,8 @@ nice() {
   [[ -e fast ]] || sleep 2
   echo '[1/1] linked'
   mkdir -p "$build"
-  echo engine >"$build/lmp"
+  printf '%s\\n' '#!/bin/sh' 'echo dump custom/zstd' '# engine' >"$build/lmp"
+  chmod +x "$build/lmp"
   echo built >>calls
 }
 cmake() { :; }
@@ -57,6 +58,15 @@ def test_killed_build_goes_on(machine):
     assert calls.read_text().split() == ["fetched", "building", "building", "built"], "fetched only once"
     (home,) = machine.cache.glob("lammps/*/")
     assert sorted(path.name for path in home.iterdir()) == ["build.log", "lmp", "src"]
+
+
+def test_build_without_compressed_dumps_is_refused(machine):
+    (machine.folder / "fast").touch()
+    process = machine.bash(FAKES.replace("echo dump custom/zstd", "echo dump custom"))
+    assert "libzstd or pkg-config were not found" in process.communicate(timeout=60)[0]
+    assert process.returncode == 2
+    assert "engine" in machine.bash(FAKES).communicate(timeout=60)[0], "goes on once they are there"
+    assert (machine.folder / "calls").read_text().split().count("fetched") == 1
 
 
 def test_key_tells_builds_apart(machine):
