@@ -32,6 +32,8 @@ class Header:
         Column names, as written.
     line : int
         Line of ``ITEM: TIMESTEP``; ``names_line`` that of ``ITEM: ATOMS``.
+    cells : tuple of int, or None
+        Numbers of cells along x, y, z where the rows are cells (dump style grid), not atoms.
     """
 
     step: int
@@ -41,6 +43,7 @@ class Header:
     names: tuple[str, ...]
     line: int
     names_line: int
+    cells: tuple[int, int, int] | None = None
 
 
 def _integer(source: LineSource, what: str) -> int:
@@ -82,8 +85,20 @@ def _box(source: LineSource, flags: list[str]) -> Box:
     return Box((xlo, ylo, zlo), (xhi, yhi, zhi), (periodic[0], periodic[1], periodic[2]))
 
 
+def _cells(source: LineSource) -> tuple[int, int, int]:
+    try:
+        nx, ny, nz = (int(word) for word in source.readline().split())
+        if min(nx, ny, nz) < 1 or nx * ny * nz > MAX_CLUSTERS:
+            raise ValueError
+    except ValueError:
+        raise InputError(
+            source.path, "the grid's size must be three numbers of cells, 1 or more", source.line
+        ) from None
+    return nx, ny, nz
+
+
 def read_header(source: LineSource) -> Header | None:
-    """Read a frame's header; None at the end of the file.
+    """Read a frame's header, of atoms or of cells; None at the end of the file.
 
     A dump states ``ITEM: UNITS`` once and ``ITEM: TIME`` per frame, both before ``ITEM: TIMESTEP``;
     LIGGGHTS writes neither. Items of unknown name have one line, which is passed over.
@@ -91,6 +106,7 @@ def read_header(source: LineSource) -> Header | None:
     step: int | None = None
     count: int | None = None
     box: Box | None = None
+    cells: tuple[int, int, int] | None = None
     time = math.nan
     begin = 0
     while not source.at_end():
@@ -136,6 +152,14 @@ def read_header(source: LineSource) -> Header | None:
                 raise InputError(source.path, "'ITEM: ATOMS' must name the columns", source.line)
             assert step is not None and count is not None and box is not None
             return Header(step, time, count, box, tuple(words[1:]), begin, source.line)
+        elif words[:2] == ["GRID", "SIZE"]:
+            cells = _cells(source)
+        elif words[:2] == ["GRID", "CELLS"]:
+            if step is None or box is None or cells is None:
+                raise InputError(
+                    source.path, "TIMESTEP, BOX BOUNDS and GRID SIZE must come before 'ITEM: GRID CELLS'", source.line
+                )
+            return Header(step, time, math.prod(cells), box, tuple(words[2:]), begin, source.line, cells)
         else:
             source.readline()
     if begin:

@@ -202,6 +202,8 @@ def read_file(
                 raise InputError(
                     name, f"frames must rise in time: step {header.step} comes after step {last}", header.line or None
                 )
+            if header.cells is not None:
+                raise InputError(name, "holds cells, not clusters: clusterdem map reads such files", header.line)
             last = header.step
             if number % share[1] == share[0]:
                 frame = _read_frame(frames, header, columns, name)

@@ -3,6 +3,9 @@
 Writes to DIR for each frame map.STEP.npz and map.STEP.csv, for all frames nonuniformity.csv and, as PNG, one
 figure per kind of map. A cell's true solids fraction is mass / (rho · dx · dz · thickness in y); the paper's printed
 scale, ten times that, stands beside it.
+
+Maps that the engine made while it ran (-var maps yes, *.maps) are taken as they are: their grid is their own, and
+there is no nonuniformity.csv.
 """
 
 from __future__ import annotations
@@ -13,12 +16,15 @@ from pathlib import Path
 
 import numpy as np
 
+from ..errors import InputError
 from ..frame import Frame
 from ..grid import Grid, Maps, check_resolution, maps_of
+from ..gridded import is_gridded, read_gridded
 from ..mapfigures import FIELDS, draw_maps, panels_of
 from ..nonuniformity import Uniformity, measure
 from ..output import write_csv, write_npz
 from ..parallel import over_frames
+from ..reader import check_follows, natural_order
 from ..style import save
 from .common import add_density, add_dumps, add_grid, finish, tell
 
@@ -49,6 +55,9 @@ def write_frame(frame: Frame, grid: Grid, maps: Maps, stem: Path) -> tuple[Path,
 
 def run(options: argparse.Namespace) -> None:
     out: Path = options.out
+    if is_gridded(options.dumps[0]):
+        _run_gridded(options)
+        return
 
     def work(frame: Frame) -> tuple[str, Uniformity]:
         grid = Grid(frame.box, *options.grid)
@@ -66,13 +75,31 @@ def run(options: argparse.Namespace) -> None:
             tell(out / f"{name}.npz", out / f"{name}.csv")
         tell(write_csv(out / "nonuniformity.csv", ["step", "time", *names], rows))
         if not options.no_figures:
-            tell(*_figures(out, [name for name, _ in found.values], found.heads, options.grid))
+            grid = Grid(found.heads[0].box, *options.grid)
+            tell(*_figures(out, [name for name, _ in found.values], found.heads, grid))
     finish(found)
 
 
-def _figures(out: Path, names: list[str], heads: list[Frame], shape: tuple[int, int]) -> list[Path]:
+def _run_gridded(options: argparse.Namespace) -> None:
+    names: list[str] = []
+    heads: list[Frame] = []
+    grid: Grid | None = None
+    for path in natural_order(options.dumps):
+        for head, its_grid, maps in read_gridded(path, options.rho):
+            if heads:
+                check_follows(heads[-1], head)
+            if grid is not None and grid.shape != its_grid.shape:
+                raise InputError(path, f"the grid differs from that of {heads[-1].path}", head.line)
+            grid = its_grid
+            heads.append(head)
+            names.append(f"map.{head.step:010d}")
+            tell(*write_frame(head, grid, maps, options.out / names[-1]))
+    if grid is not None and not options.no_figures:
+        tell(*_figures(options.out, names, heads, grid))
+
+
+def _figures(out: Path, names: list[str], heads: list[Frame], grid: Grid) -> list[Path]:
     chosen = panels_of(len(heads))
-    grid = Grid(heads[0].box, *shape)
     labels = [heads[i].label for i in chosen]
     data = [np.load(out / f"{names[i]}.npz") for i in chosen]
     written = []
