@@ -6,10 +6,15 @@ find_program(LIGGGHTS_EXE liggghts DOC "LIGGGHTS' executable (Debian: liggghts)"
 find_package(MPI REQUIRED COMPONENTS CXX)
 
 # One source of the fixes for both engines (src/CLUSTER/engine.h); what is about the engine itself is in src/LIGGGHTS.
-file(GLOB liggghts_sources CONFIGURE_DEPENDS src/LIGGGHTS/*.cpp src/CLUSTER/fix_drag_cluster*.cpp src/CLUSTER/fix_cluster_breakmerge*.cpp src/CLUSTER/newborn_tags.cpp
-  src/CLUSTER/gas_*.cpp src/CLUSTER/vtk_*.cpp)
+file(GLOB liggghts_sources CONFIGURE_DEPENDS src/LIGGGHTS/*.cpp src/CLUSTER/gas_*.cpp src/CLUSTER/vtk_*.cpp)
+foreach(name arrivals breakmerge_settings census cluster_drag cluster_fix cluster_table cluster_walls contact_sums event_apply event_plan
+    fix_cluster_breakmerge fix_cluster_breakmerge_output fix_drag_cluster fix_halo held_drag mean_velocity merge_partners newborn_tags
+    prescribed_gas scene_checks size_check)
+  list(APPEND liggghts_sources src/CLUSTER/${name}.cpp)
+endforeach()
 add_library(liggghtscluster MODULE EXCLUDE_FROM_ALL ${liggghts_sources})
 target_include_directories(liggghtscluster PRIVATE src/LIGGGHTS)
+target_compile_definitions(liggghtscluster PRIVATE CLUSTER_FOR_LIGGGHTS)
 target_include_directories(liggghtscluster SYSTEM PRIVATE ${LIGGGHTS_INCLUDE_DIR})
 target_link_libraries(liggghtscluster PRIVATE cluster_flags ${LIGGGHTS_LIBRARY} MPI::MPI_CXX ${CMAKE_DL_LIBS})
 set_target_properties(liggghtscluster PROPERTIES PREFIX "" SUFFIX ".so"

@@ -8,7 +8,7 @@
 #ifndef LMP_CLUSTER_ENGINE_H
 #define LMP_CLUSTER_ENGINE_H
 
-#if __has_include("engine_liggghts.h")
+#ifdef CLUSTER_FOR_LIGGGHTS    // set by the build
 #include "engine_liggghts.h"
 #else
 
@@ -21,11 +21,26 @@
 #include "utils.h"
 
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 
 using EngineFix = Fix;
 using EnginePointers = Pointers;
+
+// one exchange of a fix's own values, `size` numbers per cluster (see fix_halo.h)
+inline void forward_values(Comm *comm, Fix *fix, int size)
+{
+  comm->forward_comm(fix, size);
+}
+inline void reverse_values(Comm *comm, Fix *fix, int size)
+{
+  comm->reverse_comm(fix, size);
+}
+inline void reverse_lists_of_values(Comm *comm, Fix *fix)
+{
+  comm->reverse_comm_variable(fix);
+}
 
 // events find clusters by their IDs; a hash, because IDs only ever grow
 inline void use_hash_map(Atom *atom, const Domain *domain)
@@ -39,6 +54,32 @@ inline void use_hash_map(Atom *atom, const Domain *domain)
     atom->map_set();
   }
 }
+
+inline std::vector<Fix *> all_fixes(LAMMPS *lmp)
+{
+  return lmp->modify->get_fix_list();
+}
+inline std::vector<Fix *> find_fixes(LAMMPS *lmp, const std::string &style)
+{
+  return lmp->modify->get_fix_by_style(style);
+}
+
+inline Fix *find_fix(LAMMPS *lmp, const std::string &id)
+{
+  return lmp->modify->get_fix_by_id(id);
+}
+
+// fixes whose values for an atom tell of its contacts, not of itself
+inline std::vector<Fix *> fixes_that_remember_contacts(LAMMPS *lmp)
+{
+  std::vector<Fix *> found;
+  for (const char *style : {"^NEIGH_HISTORY", "^wall/gran"})
+    for (Fix *fix : find_fixes(lmp, style)) found.push_back(fix);
+  return found;
+}
+
+// LAMMPS keeps mass and diameter alone
+inline void set_density(Atom *, int, double) {}
 
 inline Region *region_of(Domain *domain, const std::string &id)
 {

@@ -4,8 +4,8 @@
 
 #include "fix_nve_cluster.h"
 
-#include "fix_drag_cluster.h"
 #include "four_clusters.h"
+#include "held_drag.h"
 #include "style_arguments.h"
 
 #include "atom.h"
@@ -60,21 +60,25 @@ void FixNVECluster::init()
     error->all(FLERR, "Fix {} {} does not support run_style respa: use run_style verlet", style, id);
 
   drag = nullptr;
+  alone = true;
+  Fix *dragging = nullptr;
   if (!drag_id.empty()) {
-    drag = dynamic_cast<FixDragCluster *>(modify->get_fix_by_id(drag_id));
-    if (!drag) error->all(FLERR, "Fix {} {}: drag {} is not the ID of a fix drag/cluster", style, id, drag_id);
+    dragging = modify->get_fix_by_id(drag_id);
+    auto *holder = dynamic_cast<HoldsDrag *>(dragging);
+    if (!holder) error->all(FLERR, "Fix {} {}: drag {} is not the ID of a fix drag/cluster", style, id, drag_id);
     if (modify->find_fix(drag_id) < modify->find_fix(id))
       error->all(FLERR, "Fix {} {} must be defined before fix drag/cluster {}", style, id, drag_id);
-    if (drag->igroup != igroup)
+    if (dragging->igroup != igroup)
       error->all(FLERR, "Fix {} {} and fix drag/cluster {} must act on the same group", style, id, drag_id);
+    drag = &holder->held_drag();
+    alone = !holder->asks_variables();
   }
 
-  alone = !drag || !drag->any_variable();    // a variable may ask for anything, each step
   observers.clear();
   for (int k = 0; k < modify->nfix; k++) {
     Fix *fix = modify->fix[k];
     const int mask = modify->fmask[k];
-    if (fix != this && fix != drag && (mask & (POST_FORCE | FINAL_INTEGRATE))) alone = false;
+    if (fix != this && fix != dragging && (mask & (POST_FORCE | FINAL_INTEGRATE))) alone = false;
     if (mask & END_OF_STEP) observers.push_back(fix);
   }
 }
@@ -162,9 +166,9 @@ template <bool END, bool FORCES> void FixNVECluster::advance()
   const double *rmass = atom->rmass;
   const int *mask = atom->mask;
   const bool dragged = FORCES && drag;
-  const double *u = dragged ? drag->held_velocity() : nullptr;
-  const double *b = dragged ? drag->held_coefficient() : nullptr;
-  const Vec3 along = dragged ? drag->in_plane({1.0, 1.0, 1.0}) : Vec3{0.0, 0.0, 0.0};
+  const double *u = dragged ? drag->velocity() : nullptr;
+  const double *b = dragged ? drag->coefficient() : nullptr;
+  const Vec3 along = dragged ? drag->axes() : Vec3{0.0, 0.0, 0.0};
 
   int i = 0;
 #ifdef CLUSTER_PACKS
@@ -208,7 +212,7 @@ void FixNVECluster::catch_up()
 {
   if (forces_postponed) {
     if (falling) add_gravity();
-    if (drag) drag->add_held_drag();
+    if (drag) drag->add();
   }
   if (postponed) kick();
   postponed = forces_postponed = false;

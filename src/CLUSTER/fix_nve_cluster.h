@@ -16,7 +16,7 @@ FixStyle(nve/cluster,FixNVECluster);
 #include "model/vector3.h"
 
 namespace LAMMPS_NS {
-class FixDragCluster;
+class HeldDrag;
 
 class FixNVECluster : public FixNVE {
  public:
@@ -34,7 +34,7 @@ class FixNVECluster : public FixNVE {
   ClusterDEM::Vec3 g;     // acceleration by gravity
   bool falling;           // gravity is not 0
   std::string drag_id;    // empty: no drag
-  FixDragCluster *drag;
+  HeldDrag *drag;
 
   // The end of a step that nobody looks at is done together with the start of the next one, in one pass over memory.
   bool alone;                      // no other fix adds forces after these, or integrates

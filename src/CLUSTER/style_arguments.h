@@ -57,6 +57,12 @@ class StyleArguments : protected EnginePointers {
     error->all(FLERR, caret(), "Unknown {} keyword: {}", command_, arg_[i_ - 1]);
   }
 
+  // words that do not go together, or one that is missing
+  [[noreturn]] void incomplete(const std::string &why) const
+  {
+    error->all(FLERR, "Illegal {} command: {}", command_, why);
+  }
+
   double number(const std::string &what, const std::string &rule = "a finite number")
   {
     const std::string value = word(what);

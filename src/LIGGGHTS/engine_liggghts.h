@@ -113,17 +113,6 @@ class CommWords {
   }
 
   void forward_comm() { real->forward_comm(); }
-  // the size of a message, for one cluster, is asked back by pack_comm(); buffers are made for the largest
-  void forward_comm(Fix *fix, int size)
-  {
-    const int most = fix->comm_forward;
-    fix->comm_forward = size;
-    real->forward_comm_fix(fix);
-    fix->comm_forward = most;
-  }
-  // newton is off: a rank knows all contacts of its clusters
-  void reverse_comm(Fix *, int) {}
-  void reverse_comm_variable(Fix *) {}
 
  private:
   Comm *real;
@@ -182,6 +171,18 @@ class EngineFix : public Fix {
   int maxexchange = 0, maxexchange_dynamic = 0;
 };
 
+// the size of a message, for one cluster, is asked back by pack_comm(); buffers are made for the largest
+inline void forward_values(Comm *comm, Fix *fix, int size)
+{
+  const int most = fix->comm_forward;
+  fix->comm_forward = size;
+  comm->forward_comm_fix(fix);
+  fix->comm_forward = most;
+}
+// newton is off: a rank knows all contacts of its clusters
+inline void reverse_values(Comm *, Fix *, int) {}
+inline void reverse_lists_of_values(Comm *, Fix *) {}
+
 inline void use_hash_map(Atom *atom, const Domain *domain)
 {
   if (atom->map_style) return;
@@ -191,6 +192,34 @@ inline void use_hash_map(Atom *atom, const Domain *domain)
     atom->map_init();
     atom->map_set();
   }
+}
+
+inline std::vector<Fix *> all_fixes(LAMMPS *lmp)
+{
+  return ModifyWords(lmp->modify).get_fix_list();
+}
+inline std::vector<Fix *> find_fixes(LAMMPS *lmp, const std::string &style)
+{
+  return ModifyWords(lmp->modify).get_fix_by_style(style);
+}
+
+inline Fix *find_fix(LAMMPS *lmp, const std::string &id)
+{
+  return ModifyWords(lmp->modify).get_fix_by_id(id);
+}
+
+// fixes whose values for an atom tell of its contacts, not of itself
+inline std::vector<Fix *> fixes_that_remember_contacts(LAMMPS *lmp)
+{
+  std::vector<Fix *> found;
+  for (const char *style : {"contacthistory", "contactproperty"})
+    for (Fix *fix : find_fixes(lmp, style)) found.push_back(fix);
+  return found;
+}
+
+inline void set_density(Atom *atom, int i, double density)
+{
+  atom->density[i] = density;
 }
 
 inline Region *region_of(Domain *domain, const std::string &id)

@@ -24,7 +24,7 @@ FixClusterBreakMergeLiggghts::FixClusterBreakMergeLiggghts(LAMMPS *lmp, int narg
 
 void FixClusterBreakMergeLiggghts::post_create()
 {
-  if (!looks_at_power()) return;
+  if (!settings.size.looks_at_power()) return;
   auto *pair = dynamic_cast<PairGran *>(force->pair_match("gran", 0));
   if (!pair) error->all(FLERR, "Fix {} {}: must be defined after a granular pair_style command", style, id);
   pair->do_store_contact_forces();
@@ -36,7 +36,7 @@ void FixClusterBreakMergeLiggghts::init()
 {
   FixClusterBreakMerge::init();
   auto *pair = dynamic_cast<PairGran *>(force->pair_match("gran", 0));
-  if (looks_at_power() && !pair->fix_contact_forces())
+  if (settings.size.looks_at_power() && !pair->fix_contact_forces())
     error->all(FLERR, "Fix {} {}: the pair_style command was given anew after this fix: define the fix after it",
                style, id);
 }
@@ -45,12 +45,8 @@ void FixClusterBreakMergeLiggghts::init()
 
 void FixClusterBreakMergeLiggghts::pre_exchange()
 {
-  const bool events_now = next_reneighbor == update->ntimestep;
   FixClusterBreakMerge::pre_exchange();
   Fix::comm->maxexchange_fix = MAX(Fix::comm->maxexchange_fix, maxexchange);
-  if (!events_now) return;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (atom->mask[i] & groupbit) atom->density[i] = cluster_geometry(atom->type[i]).density();
 }
 
 /* ----------------------------------------------------------------------
@@ -59,5 +55,5 @@ void FixClusterBreakMergeLiggghts::pre_exchange()
 
 double FixClusterBreakMergeLiggghts::max_rad(int type)
 {
-  return 0.5 * cluster_geometry(type).diameter(size_limits().hi);
+  return 0.5 * settings.kinds.geometry(type).diameter(settings.kinds.limits.hi);
 }

@@ -15,6 +15,9 @@ struct PowerParts {
 
   PowerParts(double n_st, double n_cc, double n_smf) : part{n_st, n_cc, -n_smf} {}
 
+  // E_in* of Eq. (2)
+  double e_in() const { return part[ST] + part[CC] + part[MF]; }
+
   double e_in_without(Term left_out) const
   {
     double sum = 0.0;
@@ -39,13 +42,19 @@ struct SizeRule {
 
   StableSize stable(double e_in) const { return stable_size(k, e_in, geometry, limits); }
 
-  // would n particles of diameter d break at this power? n must be within the limits
+  // into what n particles of diameter d break at this stable size; a plan of no pieces if they do not
+  BreakPlan breakup(int n, double d, const StableSize &size) const
+  {
+    if (n <= size.n || !ClusterDEM::breaks(d, size.l, hysteresis)) return {};
+    const BreakPlan plan = plan_breakup(n, size.n, limits.lo);
+    return plan.is_event() ? plan : BreakPlan{};
+  }
+
+  // would they break at this power? n must be within the limits
   bool breaks(int n, double d, double e_in) const
   {
     if (d * e_in < 0.999 * (1.0 + hysteresis) * k) return false;    // clearly not: l needs no cube root
-    const StableSize size = stable(e_in);
-    return n > size.n && ClusterDEM::breaks(d, size.l, hysteresis) &&
-        plan_breakup(n, size.n, limits.lo).is_event();
+    return breakup(n, d, stable(e_in)).is_event();
   }
 
   // Was this term decisive for the breakup of a cluster that breaks? Only what drives can be.

@@ -135,6 +135,12 @@ inline double reach_of_break(const BreakPlan &plan, const ClusterGeometry &geome
   return std::min(claim, 2.0 * alone);
 }
 
+// The room that two halves of a cluster of diameter d need: they lie beside each other, `spacing` of their diameters apart.
+inline double room_of_halves(double d, double spacing)
+{
+  return 0.5 * (spacing + 1.0) * d * std::cbrt(0.5);
+}
+
 // Takes the nearest free sites in pairs of mirror images, so that the centre of mass stays where it is;
 // a piece of another size sits in the middle, or in the nearest pair. What is left of a shift is taken
 // off the whole set, and every gap is checked again (gap >= 0). `spacing` in diameters of the n_l pieces.

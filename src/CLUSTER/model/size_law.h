@@ -45,6 +45,17 @@ inline double n_smf(NsmfReading reading, double u_mf, double u_p, double eps_mf,
   return (u_mf + c * u_p / (1.0 - eps_mf)) * g;
 }
 
+// U_p of `own`: |V_g|; of `cell`: the mass mean of |V_g| over the clusters of the cell; of `superficial`: that times the
+// solids fraction of the cell
+inline double mean_speed(double mass_times_speed, double mass)
+{
+  return mass_times_speed / mass;
+}
+inline double superficial_speed(double mean_speed, double mass, double rho_p, double volume)
+{
+  return mean_speed * (mass / (rho_p * volume));
+}
+
 // K of the EMMS literature: l = d_p at N = U_p g/(1 - eps_max), l -> inf at N = N_smf;
 // K = d_p [U_p/(1 - eps_max) - (U_mf + eps_mf U_p/(1 - eps_mf))] g, U_p superficial
 inline double k_emms(double d_p, double u_p, double u_mf, double eps_mf, double g, double eps_max = 0.9997)

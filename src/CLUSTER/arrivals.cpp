@@ -1,0 +1,173 @@
+/* ----------------------------------------------------------------------
+   Cluster DEM for LAMMPS. Distributed under the GNU General Public License, version 2 or later.
+------------------------------------------------------------------------- */
+
+#include "arrivals.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+using namespace LAMMPS_NS;
+using namespace ClusterDEM;
+
+static constexpr double TOLERANCE = 1.0e-6;    // of masses and diameters, relative
+
+/* ---------------------------------------------------------------------- */
+
+Arrivals::Arrivals(LAMMPS *lmp, const ClusterKinds &k, const ClusterColumns &c, NewbornTags &t, Census &all,
+                   int group) :
+    EnginePointers(lmp), kinds(k), columns(c), tags(t), census(all), groupbit(group), start_counted(false)
+{
+}
+
+/* ----------------------------------------------------------------------
+   from its mass when it is first asked for
+------------------------------------------------------------------------- */
+
+int Arrivals::particle_count(int i)
+{
+  if ((*columns.count)[i]) return (*columns.count)[i];
+  const ClusterGeometry &particles = kinds.geometry(atom->type[i]);
+  const auto n = particles.count_from_mass(atom->rmass[i]);
+  const double d = particles.diameter(n.whole ? n.n : n.exact);
+  const bool right_size = std::fabs(2.0 * atom->radius[i] - d) <= TOLERANCE * d;
+  if (!n.whole || !right_size) {
+    const int nearest = std::max(1, static_cast<int>(std::lround(n.exact)));
+    const std::string fault = n.whole
+        ? fmt::format("has diameter {:.10g}, which does not fit its {} primary particles", 2.0 * atom->radius[i],
+                      n.n)
+        : fmt::format("has mass {:.10g}, which is {:.2f} primary particles, not a whole number within 1e-6",
+                      atom->rmass[i], n.exact);
+    error->one(FLERR, "{}: cluster {} {}: {} particles at voidage {} need diameter {:.10g} and density {:.10g}",
+               me, atom->tag[i], fault, nearest, particles.voidage, particles.diameter(nearest),
+               particles.density());
+  }
+  if (n.n > kinds.limits.hi)
+    error->one(FLERR,
+               "{}: cluster {} holds {} primary particles, above the upper limit {}: the pair "
+               "cutoff is made for the largest diameter of the limits",
+               me, atom->tag[i], n.n, kinds.limits.hi);
+  (*columns.count)[i] = n.n;
+  (*columns.shown)[i][ClusterColumns::N] = n.n;
+  (*columns.shown)[i][ClusterColumns::D] = d;
+  return n.n;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Arrivals::check_size(int i)
+{
+  const int n = particle_count(i);
+  const double d = columns.diameter(i), mass = kinds.geometry(atom->type[i]).mass(n);
+  if (std::fabs(2.0 * atom->radius[i] - d) > TOLERANCE * d ||
+      std::fabs(atom->rmass[i] - mass) > TOLERANCE * atom->rmass[i])
+    error->one(FLERR,
+               "{}: cluster {} of {} particles has diameter {:.10g} and mass {:.10g} at step {}: another command "
+               "changes diameters or masses",
+               me, atom->tag[i], n, 2.0 * atom->radius[i], atom->rmass[i], update->ntimestep);
+}
+
+/* ----------------------------------------------------------------------
+   a set command or the like may have changed any of them
+------------------------------------------------------------------------- */
+
+void Arrivals::at_start_of_run()
+{
+  tagint mine = 0, all = 0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    mine = std::max(mine, atom->tag[i]);
+    if (!(atom->mask[i] & groupbit)) continue;
+    int &count = (*columns.count)[i];
+    const int before = count;
+    count = 0;
+    const int change = particle_count(i) - before;
+    if (!start_counted) continue;
+    if (before == 0) census.add(Census::CLUSTERS_FED);
+    census.add(change > 0 ? Census::FED : Census::LEFT, std::abs(change));
+  }
+  start_counted = true;
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_TAGINT, MPI_MAX, world);
+  tags.raise(all);
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::vector<int> Arrivals::newcomers() const
+{
+  std::vector<int> mine;
+  for (int i = 0; i < atom->nlocal; i++)
+    if ((atom->mask[i] & groupbit) && (*columns.count)[i] == 0) mine.push_back(i);
+  return mine;
+}
+
+/* ----------------------------------------------------------------------
+   They are numbered above every ID ever used, in an order that hangs on their places alone, whatever IDs they brought:
+   those may have belonged to others, or depend on the ranks.
+------------------------------------------------------------------------- */
+
+void Arrivals::welcome(const std::vector<int> &mine, Halo &halo)
+{
+  for (const int i : mine) census.came(particle_count(i));
+  number_by_place(mine, halo);
+}
+
+/* ----------------------------------------------------------------------
+   Places mixed to numbers that are spread evenly wherever the clusters came in, so that the ranks share the work. Of a
+   place only what rounding does not touch counts.
+------------------------------------------------------------------------- */
+
+static std::uint64_t mixed(std::uint64_t z)
+{
+  z += 0x9e3779b97f4a7c15u;    // splitmix64
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+
+void Arrivals::number_by_place(const std::vector<int> &mine, Halo &halo)
+{
+  static constexpr double FINEST = 4294967296.0;    // parts of the box along an axis
+  std::vector<NewbornTags::Birth> births;
+  for (const int i : mine) {
+    std::uint64_t key = 0;
+    for (int axis = 0; axis < 3; axis++) {
+      const double share = (atom->x[i][axis] - domain->boxlo[axis]) / domain->prd[axis];
+      key = mixed(key ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(share * FINEST)));
+    }
+    births.push_back({key, 1});
+  }
+  tags.assign(births, FINEST * FINEST);
+
+  const int nall = atom->nlocal + atom->nghost;
+  std::vector<tagint> ids(atom->tag, atom->tag + nall);
+  for (std::size_t k = 0; k < mine.size(); k++) ids[mine[k]] = births[k].first;
+  halo.forward(ids);
+  atom->map_clear();
+  std::copy(ids.begin(), ids.end(), atom->tag);
+  atom->map_init();
+  atom->map_set();
+}
+
+/* ----------------------------------------------------------------------
+   The engine deletes clusters by copying another one over them, and so it does with those that it has packed for
+   another rank: what is deleted and unpacked nowhere has left.
+------------------------------------------------------------------------- */
+
+void Arrivals::note_leaving(int i)
+{
+  const int n = (*columns.count)[i];
+  if (n) census.left(n);
+}
+
+void Arrivals::note_arrived(int i)
+{
+  const int n = (*columns.count)[i];
+  if (n) census.left_elsewhere(n);
+}

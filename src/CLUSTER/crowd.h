@@ -1,0 +1,52 @@
+/* ----------------------------------------------------------------------
+   Cluster DEM for LAMMPS. Distributed under the GNU General Public License, version 2 or later.
+------------------------------------------------------------------------- */
+
+// The clusters that a rank sees at a check, in plain arrays: owned ones first, then ghosts. Events are planned on it without
+// an engine.
+
+#ifndef LMP_CROWD_H
+#define LMP_CROWD_H
+
+#include "model/cluster.h"
+#include "model/merging.h"
+#include "model/placement.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+using ClusterID = std::int64_t;
+
+struct Crowd {
+  int nlocal = 0, nall = 0;
+  const double *const *x = nullptr;
+  const double *const *v = nullptr;
+  const double *const *omega = nullptr;    // none: clusters do not turn
+  const double *radius = nullptr;
+  const double *mass = nullptr;
+  std::vector<ClusterID> id;
+  std::vector<int> kind;                   // of primary particles; negative: not of the group, in the way but in no event
+  std::vector<int> count;                  // primary particles
+  std::vector<int> stable;                 // the same of the stable size; count and stable of ghosts are filled in by the plan
+  std::function<int(int, ClusterID)> nearest_image;    // of the cluster with this ID, to cluster i; -1: not seen here
+  ClusterDEM::Vec3 lo, hi;                 // all lie between
+  std::function<ClusterDEM::Walls(const ClusterDEM::Vec3 &)> walls_around;    // as seen from a point
+
+  ClusterDEM::Body body(int i) const
+  {
+    return {mass[i], ClusterDEM::to_vec3(x[i]), ClusterDEM::to_vec3(v[i])};
+  }
+  ClusterDEM::Spinning spinning(int i) const { return {mass[i], radius[i], ClusterDEM::to_vec3(omega[i])}; }
+};
+
+// Two clusters in contact, at least one of them owned.
+struct Touch {
+  int i, j;
+  bool listed_twice;    // the rank that owns j has this contact, too
+};
+
+}    // namespace LAMMPS_NS
+#endif

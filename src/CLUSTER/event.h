@@ -1,0 +1,34 @@
+/* ----------------------------------------------------------------------
+   Cluster DEM for LAMMPS. Distributed under the GNU General Public License, version 2 or later.
+------------------------------------------------------------------------- */
+
+// One break, or one merge; a refused merge that breaks is both.
+
+#ifndef LMP_EVENT_H
+#define LMP_EVENT_H
+
+#include "model/breakup.h"
+#include "model/merging.h"
+#include "model/placement.h"
+
+namespace LAMMPS_NS {
+
+struct Event {
+  int i;         // the owned cluster that leads: the parent, or the one with the lower ID
+  int j = -1;    // its partner, owned or ghost; none if negative
+  int particles = 0;    // in all
+  ClusterDEM::BreakPlan plan;
+  ClusterDEM::Body body = {};    // parent, or both combined
+  ClusterDEM::Vec3 omega = {};    // of the merged cluster
+  ClusterDEM::Placement placement;
+  double stiffness = 0.0;      // of the merging contact
+  double reach = 0.0;          // how far to look for others
+  double energy_lost = 0.0;    // kinetic energy that the merge takes out
+  double energy_born = 0.0;    // elastic energy that the merged cluster puts in
+
+  bool merges() const { return j >= 0; }
+  bool breaks() const { return plan.is_event(); }
+};
+
+}    // namespace LAMMPS_NS
+#endif

@@ -1,0 +1,127 @@
+/* ----------------------------------------------------------------------
+   Cluster DEM for LAMMPS. Distributed under the GNU General Public License, version 2 or later.
+------------------------------------------------------------------------- */
+
+// What fix cluster/breakmerge tells: its vector, its restart data, the grid's messages.
+
+#include "fix_cluster_breakmerge.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "update.h"
+
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+static constexpr int64_t LAYOUT = int64_t(2) << 32;    // of the restart data; version 0.1 wrote no mark
+
+/* ----------------------------------------------------------------------
+   clusters, particles, breakups, merges, fragments born, births deferred or shifted,
+   energy lost in merges, energy put in by births, min, mean, max d; the other totals
+------------------------------------------------------------------------- */
+
+double FixClusterBreakMerge::compute_vector(int n)
+{
+  if (output_step == update->ntimestep) return output[n];
+  output_step = update->ntimestep;
+  double sum[3 + Census::NTOTALS] = {0.0}, all[3 + Census::NTOTALS];
+  double most[2] = {-INFINITY, 0.0}, most_all[2];    // -min d, max d
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const double d = 2.0 * atom->radius[i];
+    sum[0] += 1.0;
+    sum[1] += arrivals.particle_count(i);
+    sum[2] += d;
+    most[0] = MAX(most[0], -d);
+    most[1] = MAX(most[1], d);
+  }
+  std::copy(census.totals().begin(), census.totals().end(), sum + 3);
+  MPI_Allreduce(sum, all, 3 + Census::NTOTALS, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(most, most_all, 2, MPI_DOUBLE, MPI_MAX, world);
+  output[0] = all[0];
+  output[1] = all[1];
+  std::copy(all + 3, all + 3 + Census::TESTS, output + 2);
+  output[8] = all[0] > 0.0 ? -most_all[0] : 0.0;
+  output[9] = all[0] > 0.0 ? all[2] / all[0] : 0.0;
+  output[10] = most_all[1];
+  std::copy(all + 3 + Census::TESTS, all + 3 + Census::NTOTALS, output + 11);
+  return output[n];
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixClusterBreakMerge::memory_usage()
+{
+  return table.bytes() + (sizes.cells() ? sizes.cells()->memory_usage() : 0.0);
+}
+
+/* ----------------------------------------------------------------------
+   restart: totals and the highest ID ever used; particle counts follow from the masses. The number of totals goes ahead,
+   in bits that no layout before version 0.1 has there.
+------------------------------------------------------------------------- */
+
+void FixClusterBreakMerge::write_restart(FILE *fp)
+{
+  double state[Census::NTOTALS + 2];
+  state[0] = ubuf(LAYOUT + Census::NTOTALS).d;
+  MPI_Reduce(census.totals().data(), state + 1, Census::NTOTALS, MPI_DOUBLE, MPI_SUM, 0, world);
+  state[Census::NTOTALS + 1] = ubuf(tags.highest_used()).d;
+  if (comm->me) return;
+  const int size = sizeof(state);
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(state, sizeof(state), 1, fp);
+}
+
+void FixClusterBreakMerge::restart(char *buf)
+{
+  const auto *state = (const double *) buf;
+  const int64_t marked = ubuf(state[0]).i;
+  resumed_from_0_1 = marked == Census::TOTALS_OF_0_1;
+  const int64_t n = resumed_from_0_1 ? marked : marked - LAYOUT;
+  if (n != Census::NTOTALS && !resumed_from_0_1)
+    error->all(FLERR, "Fix {} {}: the restart file was written by another version of this fix", style, id);
+  Census::Totals totals = {};
+  std::copy(state + 1, state + 1 + n, totals.begin());
+  if (comm->me == 0) census.resume(totals);
+  tags.raise((tagint) ubuf(state[n + 1]).i);
+}
+
+/* ----------------------------------------------------------------------
+   version 0.1 wrote the IDs of partners without their number
+------------------------------------------------------------------------- */
+
+bool FixClusterBreakMerge::unpack_earlier(int i, const double *from, int n)
+{
+  if (!resumed_from_0_1) return false;
+  for (int k = 0; k < n; k++) (*columns.partners)[i].push_back((tagint) ubuf(from[k]).i);
+  return true;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixClusterBreakMerge::reset_grid()
+{
+  if (sizes.cells()) sizes.cells()->reset();
+}
+
+void FixClusterBreakMerge::pack_forward_grid(int, void *buf, int nlist, int *list)
+{
+  sizes.cells()->pack((double *) buf, nlist, list);
+}
+
+void FixClusterBreakMerge::unpack_forward_grid(int, void *buf, int nlist, int *list)
+{
+  sizes.cells()->unpack((double *) buf, nlist, list, false);
+}
+
+void FixClusterBreakMerge::pack_reverse_grid(int, void *buf, int nlist, int *list)
+{
+  sizes.cells()->pack((double *) buf, nlist, list);
+}
+
+void FixClusterBreakMerge::unpack_reverse_grid(int, void *buf, int nlist, int *list)
+{
+  sizes.cells()->unpack((double *) buf, nlist, list, true);
+}

@@ -1,0 +1,138 @@
+/* ----------------------------------------------------------------------
+   Cluster DEM for LAMMPS. Distributed under the GNU General Public License, version 2 or later.
+------------------------------------------------------------------------- */
+
+#include "scene_checks.h"
+
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "model/placement.h"
+#include "neighbor.h"
+#include "pair.h"
+#include "update.h"
+
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using namespace ClusterDEM;
+
+static constexpr double MOST_SITES = 1.0e7;    // of a lattice for fragments: 0.4 GB
+
+/* ---------------------------------------------------------------------- */
+
+void SceneChecks::check_engine() const
+{
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "{} does not support run_style respa: use run_style verlet", me);
+  if (force->pair == nullptr) error->all(FLERR, "{} must be defined after the pair_style command", me);
+  if (find_fixes(lmp, "^cluster/breakmerge").size() > 1)
+    error->all(FLERR, "{}: only one fix cluster/breakmerge at a time", me);
+}
+
+/* ----------------------------------------------------------------------
+   Events are decided before pre_exchange, with the clusters and the places that there are then. Fixes that add, delete
+   or move clusters between ranks do so in pre_exchange, too: they must find the events done.
+------------------------------------------------------------------------- */
+
+void SceneChecks::check_order() const
+{
+  bool after_me = false;
+  for (Fix *other : all_fixes(lmp)) {
+    const bool history = utils::strmatch(other->id, "^NEIGH_HISTORY");
+    if (other == fix) after_me = true;
+    else if (after_me && history)
+      error->all(FLERR,
+                 "{} must be defined after the pair_style command: contact history is saved "
+                 "in the order of definition",
+                 me);
+    else if (!after_me && !history && other->force_reneighbor && (other->setmask() & PRE_EXCHANGE))
+      error->all(FLERR,
+                 "{} must be defined before fix {} {}: breakups and merges of a step are carried out before "
+                 "other fixes add, delete or migrate clusters",
+                 me, other->style, other->id);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SceneChecks::check_foreign() const
+{
+  const std::string foreign = not_for_clusters(lmp, fix->groupbit);
+  if (!foreign.empty()) error->all(FLERR, "{} does not support {}", me, foreign);
+}
+
+/* ----------------------------------------------------------------------
+   Two events meet when their claims do: each rank must see every candidate within two claims of its
+   own clusters, and newborns must not skip a whole rank.
+------------------------------------------------------------------------- */
+
+void SceneChecks::check_room() const
+{
+  const double largest = settings.kinds.largest_diameter();
+  const double claim = settings.event.claim, spacing = settings.event.spacing;
+  if (claim < largest)
+    error->all(FLERR,
+               "{}: claim {} [length] is below the largest cluster diameter {}: use a larger claim "
+               "or a lower upper limit",
+               me, claim, largest);
+  const double halves = room_of_halves(largest, spacing);
+  if (settings.event.breaking && claim < halves)
+    error->all(FLERR,
+               "{}: claim {} [length] is below {}, the room that two halves of the largest cluster "
+               "need at spacing {}: the largest could never break",
+               me, claim, halves, spacing);
+  const double needed = 2.0 * claim + neighbor->skin;
+  const double have = ghost_reach(force->pair->cutforce + neighbor->skin, comm->cutghostuser, neighbor->skin);
+  if (have < needed * (1.0 - 1.0e-12))
+    error->all(FLERR,
+               "{}: the ghost cutoff {} is below {}, twice the claim {} plus the skin: use "
+               "'{}' or a smaller claim",
+               me, have, needed, claim, ask_for_ghosts(needed * 1.0001, neighbor->skin));
+  const std::string fault = periodic_box_too_short();
+  if (!fault.empty()) error->all(FLERR, "{}", fault);
+}
+
+std::string SceneChecks::periodic_box_too_short() const
+{
+  for (int axis = 0; axis < 3; axis++)
+    if (domain->periodicity[axis] && !(settings.event.planar && axis == 1) &&
+        domain->prd[axis] < 4.0 * settings.event.claim)
+      return fmt::format("{}: the periodic box is {} long along {}, below four times the claim {}: an "
+                         "event would meet its own image",
+                         me, domain->prd[axis], "xyz"[axis], settings.event.claim);
+  return "";
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SceneChecks::check_lattice() const
+{
+  const double finest = settings.event.spacing * settings.kinds.smallest_diameter();
+  const double sites = ClusterDEM::Lattice::sites_within(settings.event.planar, settings.event.claim / finest + 1.0);
+  if (sites > MOST_SITES)
+    error->all(
+        FLERR,
+        "{}: the claim {} [length] holds {:.3g} sites of a lattice for fragments of {} particles, more than "
+        "{:.3g}: raise the lower limit or the spacing, or use a smaller claim",
+        me, settings.event.claim, sites, settings.kinds.limits.lo, MOST_SITES);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SceneChecks::check_part_of_box() const
+{
+  const double claim = settings.event.claim;
+  for (int axis = 0; axis < 3; axis++) {
+    const double part = domain->subhi[axis] - domain->sublo[axis];
+    if (part < claim && part < domain->prd[axis] * (1.0 - 1.0e-12))
+      error->one(FLERR,
+                 "{}: a rank's part of the box is {} long along {}, below the claim {}: use "
+                 "fewer ranks or a smaller claim",
+                 me, part, "xyz"[axis], claim);
+  }
+  const std::string fault = periodic_box_too_short();
+  if (!fault.empty()) error->one(FLERR, "{}", fault);
+}
