@@ -7,7 +7,7 @@ find_package(MPI REQUIRED COMPONENTS CXX)
 
 # One source of the fixes for both engines (src/CLUSTER/engine.h); what is about the engine itself is in src/LIGGGHTS.
 file(GLOB liggghts_sources CONFIGURE_DEPENDS src/LIGGGHTS/*.cpp src/CLUSTER/fix_drag_cluster*.cpp src/CLUSTER/fix_cluster_breakmerge*.cpp src/CLUSTER/newborn_tags.cpp
-  src/CLUSTER/gas_*.cpp src/CLUSTER/vtk_*.cpp)
+  src/CLUSTER/contact_source.cpp src/CLUSTER/gas_*.cpp src/CLUSTER/vtk_*.cpp)
 add_library(liggghtscluster MODULE EXCLUDE_FROM_ALL ${liggghts_sources})
 target_include_directories(liggghtscluster PRIVATE src/LIGGGHTS)
 target_include_directories(liggghtscluster SYSTEM PRIVATE ${LIGGGHTS_INCLUDE_DIR})

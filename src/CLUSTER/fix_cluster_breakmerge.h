@@ -13,7 +13,7 @@ FixStyle(cluster/breakmerge,FixClusterBreakMerge);
 
 #include "engine.h"
 
-#include "granular_pairs.h"
+#include "contact_source.h"
 #include "model/decisive_terms.h"
 #include "model/merging.h"
 #include "model/placement.h"
@@ -114,7 +114,7 @@ class FixClusterBreakMerge : public EngineFix {
   // ---- what init() finds or derives
   FixDragCluster *drag;
   Region *region;
-  GranularPairs pairs;
+  ContactSource pairs;
   std::unique_ptr<CellAverages> averages;
   std::unique_ptr<ClusterDEM::Lattices> lattices;
 

@@ -159,7 +159,7 @@ void FixClusterBreakMerge::add_up_contacts()
   for (const auto &contact : pairs.contacts()) {
     const int i = contact.i, j = contact.j;
     const bool both = force->newton_pair || j < nlocal;
-    GranularPairs::Load load = {0.0, 0.0};
+    ContactSource::Load load = {0.0, 0.0};
     if (want_power || contact.noted) load = pairs.load(contact);
     contact_force +=
         load.force * ((atom->mask[i] & groupbit ? 1 : 0) + (both && atom->mask[j] & groupbit ? 1 : 0));

@@ -146,6 +146,11 @@ class ContactLaw {
   }
 };
 
+inline double reduced_mass(double m_i, double m_j)
+{
+  return m_i * m_j / (m_i + m_j);
+}
+
 // Stiffness of a linear spring that stops a pair of reduced mass m, approaching at c, at overlap `most`; without
 // damping, which would help.
 inline double stopping_stiffness(double m, double c, double most)

@@ -4,7 +4,7 @@
 
 // Contacts of LIGGGHTS' pair style gran: the neighbor list tells who touches, the pair style stores the forces.
 
-#include "granular_pairs.h"
+#include "contact_source.h"
 
 #include "atom.h"
 #include "engine.h"
@@ -12,7 +12,6 @@
 #include "fix_property_global.h"
 #include "force.h"
 #include "modify.h"
-#include "neigh_list.h"
 #include "pair_gran.h"
 
 using namespace LAMMPS_NS;
@@ -20,7 +19,7 @@ using namespace ClusterDEM;
 
 /* ---------------------------------------------------------------------- */
 
-void GranularPairs::find(const std::string &fix, int, double)
+void ContactSource::find(const std::string &fix, int, double)
 {
   ErrorWords words(error);
   pairs.clear();
@@ -37,44 +36,20 @@ void GranularPairs::find(const std::string &fix, int, double)
 /* ---------------------------------------------------------------------- */
 
 // LIGGGHTS asks for the largest radius itself
-void GranularPairs::check_cutoff(const std::string &, int, double) const {}
+void ContactSource::check_cutoff(const std::string &, int, double) const {}
 
-void GranularPairs::expect_contacts(bigint) {}
+void ContactSource::expect_contacts(bigint) {}
 
-void GranularPairs::find_contacts()
+bool ContactSource::take_noted(Pair *)
 {
-  touching.clear();
-  for (Pair *pair : pairs) walk(pair);
-}
-
-void GranularPairs::walk(Pair *pair)
-{
-  double **x = atom->x;
-  const double *radius = atom->radius;
-  const NeighList *list = pair->list;
-  for (int ii = 0; ii < list->inum; ii++) {
-    const int i = list->ilist[ii];
-    const int *jlist = list->firstneigh[i];
-    for (int jj = 0; jj < list->numneigh[i]; jj++) {
-      const int j = jlist[jj] & NEIGHMASK;
-      const Vec3 d = to_vec3(x[i]) - to_vec3(x[j]);
-      const double reach = radius[i] + radius[j];
-      if (dot(d, d) < reach * reach) touching.push_back({i, j, pair, false, {0.0, 0.0}});
-    }
-  }
+  return false;
 }
 
 /* ----------------------------------------------------------------------
-   with the force of the last evaluation, which had none for a contact that has only just begun
+   of the last evaluation of forces, which had none for a contact that has only just begun
 ------------------------------------------------------------------------- */
 
-GranularPairs::Load GranularPairs::load(const Contact &c) const
-{
-  const Vec3 force = contact_force(c);
-  return {dot(force, to_vec3(atom->v[c.i]) - to_vec3(atom->v[c.j])), norm(force)};
-}
-
-Vec3 GranularPairs::contact_force(const Contact &c) const
+Vec3 ContactSource::contact_force(const Contact &c) const
 {
   FixContactPropertyAtom *forces = static_cast<PairGran *>(c.pair)->fix_contact_forces();
   const int partner = forces->has_partner(c.i, atom->tag[c.j]);
@@ -83,7 +58,7 @@ Vec3 GranularPairs::contact_force(const Contact &c) const
 
 /* ---------------------------------------------------------------------- */
 
-double GranularPairs::stiffness(const Contact &c) const
+double ContactSource::stiffness(const Contact &c) const
 {
   const int n = atom->ntypes;
   auto *kn = modify->find_fix_property("kn", "property/global", "peratomtypepair", n, n, "cluster/breakmerge");
