@@ -14,7 +14,7 @@ PairStyle(gran/cluster,PairGranCluster);
 #include "pair_gran_hooke_history.h"
 
 #include "model/contact_law.h"
-#include "model/step_control.h"
+#include "model/step_energy.h"
 
 #include <vector>
 
@@ -82,7 +82,7 @@ class PairGranCluster : public PairGranHookeHistory {
 
   struct Touching;    // one pair in contact, its force
   void flatten_list();
-  template <bool ROTATE> Touching look_at(int i, int j, double rsq) const;
+  template <bool ROTATE> Touching look_at(int i, int j, const ClusterDEM::Vec3 &d) const;
   template <bool ROTATE, bool FRICTION> void compute_contacts();
   template <bool ROTATE> void add_force(int i, int j, const Touching &);
   double *displacement_of(int i, int j);
