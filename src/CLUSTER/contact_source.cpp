@@ -17,9 +17,11 @@ void ContactSource::find_contacts()
   for (Pair *pair : pairs) {
     if (take_noted(pair)) continue;
     const double *radius = atom->radius;
-    each_near_pair(atom, pair, [&](int i, int j, const Vec3 &d) {
-      const double reach = radius[i] + radius[j];
-      if (dot(d, d) < reach * reach) touching.push_back({i, j, pair, false, {}});
+    const bool bonds = can_bond(pair);
+    each_near_pair(atom, pair, [&](int i, int j, int slot, const Vec3 &d) {
+      const double reach = radius[i] + radius[j], rsq = dot(d, d);
+      if (rsq < reach * reach || (bonds && bonded(pair, i, j, slot, rsq)))
+        touching.push_back({i, j, pair, false, {}});
     });
   }
 }

@@ -48,7 +48,7 @@ class ContactSource : protected Pointers {
   void expect_contacts(bigint step);
 
   // collect all pairs of the half neighbor lists in contact: as noted at the last evaluation of forces, else those
-  // that overlap now
+  // that overlap now or are held together by a cohesive law beyond touching
   void find_contacts();
   const std::vector<Contact> &contacts() const { return touching; }
 
@@ -58,11 +58,22 @@ class ContactSource : protected Pointers {
   // elastic normal force over overlap at this instant, damping left out
   double stiffness(const Contact &) const;
 
+  // Energy [force x length] that the normal force of clusters i and j would hold at this distance of their centres if i had
+  // that radius, damping left out: 0 where they do not touch, unless a cohesive law holds them together now. The work
+  // against the force on the way from where it lets go; the law is that of the pair style, all sub-styles together. Changes
+  // nothing.
+  double energy(int i, int j, double radius_i, double distance) const;
+
+  // Energy [force x length] that a contact holds at this instant: normal, and of the tangential spring if the style has one.
+  double energy_now(const Contact &) const;
+
  private:
   std::vector<Pair *> pairs;
   std::vector<Contact> touching;
 
   bool take_noted(Pair *);    // false if this pair style has not noted its contacts
+  bool can_bond(const Pair *) const;
+  bool bonded(const Pair *, int i, int j, int slot, double rsq) const;
   ClusterDEM::Vec3 contact_force(const Contact &) const;
 };
 

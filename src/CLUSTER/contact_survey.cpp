@@ -21,7 +21,7 @@ ContactSurvey::Found ContactSurvey::look(double limit, double near, double drift
   const double *radius = atom->radius;
   Found s;
   for (const Pair *style : contacts.pair_styles())
-    each_near_pair(atom, style, [&](int i, int j, const Vec3 &d) {
+    each_near_pair(atom, style, [&](int i, int j, int, const Vec3 &d) {
       const double reach = radius[i] + radius[j] + near;
       if (dot(d, d) > reach * reach) return;
       const Approach pair = approach(radius[i], radius[j], d, to_vec3(v[i]) - to_vec3(v[j]), drift);

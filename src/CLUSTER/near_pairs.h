@@ -15,7 +15,8 @@
 
 namespace LAMMPS_NS {
 
-// Calls visit(i, j, d) for every pair of neighbors of the pair style: i is owned, d = x_i - x_j.
+// Calls visit(i, j, slot, d) for every pair of neighbors of the pair style: i is owned, j its neighbor number `slot`,
+// d = x_i - x_j.
 template <class Visit> void each_near_pair(const Atom *atom, const Pair *pair, Visit visit)
 {
   using namespace ClusterDEM;
@@ -27,7 +28,7 @@ template <class Visit> void each_near_pair(const Atom *atom, const Pair *pair, V
     const Vec3 xi = to_vec3(x[i]);
     for (int jj = 0; jj < list->numneigh[i]; jj++) {
       const int j = jlist[jj] & NEIGHMASK;
-      visit(i, j, xi - to_vec3(x[j]));
+      visit(i, j, jj, xi - to_vec3(x[j]));
     }
   }
 }

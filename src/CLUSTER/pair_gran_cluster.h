@@ -43,7 +43,7 @@ class PairGranCluster : public PairGranHookeHistory {
     double force;    // |F_ij|
   };
   void record_contacts(bigint step) { record_step = step; }
-  bool contacts_recorded(bigint step) const { return recorded_step == step; }
+  bool contacts_recorded(bigint step) const { return step >= 0 && recorded_step == step; }
   const std::vector<Contact> &contacts() const { return recorded; }
 
   // this rank's share of the energy stored in the springs, as of the last compute()

@@ -11,6 +11,7 @@
 #include "fix_contact_property_atom.h"
 #include "fix_property_global.h"
 #include "force.h"
+#include "model/contact_law.h"
 #include "modify.h"
 #include "pair_gran.h"
 
@@ -56,11 +57,41 @@ Vec3 ContactSource::contact_force(const Contact &c) const
   return partner < 0 ? Vec3{0.0, 0.0, 0.0} : to_vec3(forces->contacthistory(c.i, partner));
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   model hooke/stiffness alone: find() takes no other
+------------------------------------------------------------------------- */
+
+static double kn(const Atom *atom, Modify *modify, int i, int j)
+{
+  const int n = atom->ntypes;
+  auto *values = modify->find_fix_property("kn", "property/global", "peratomtypepair", n, n, "cluster/breakmerge");
+  return static_cast<FixPropertyGlobal *>(values)->compute_array(atom->type[i] - 1, atom->type[j] - 1);
+}
 
 double ContactSource::stiffness(const Contact &c) const
 {
-  const int n = atom->ntypes;
-  auto *kn = modify->find_fix_property("kn", "property/global", "peratomtypepair", n, n, "cluster/breakmerge");
-  return static_cast<FixPropertyGlobal *>(kn)->compute_array(atom->type[c.i] - 1, atom->type[c.j] - 1);
+  return kn(atom, modify, c.i, c.j);
+}
+
+double ContactSource::energy(int i, int j, double radius_i, double distance) const
+{
+  return linear_energy(kn(atom, modify, i, j), std::max(0.0, radius_i + atom->radius[j] - distance));
+}
+
+// of the normal spring: what LIGGGHTS keeps of the tangential one is not looked at
+double ContactSource::energy_now(const Contact &c) const
+{
+  return energy(c.i, c.j, atom->radius[c.i], norm(to_vec3(atom->x[c.i]) - to_vec3(atom->x[c.j])));
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool ContactSource::can_bond(const Pair *) const
+{
+  return false;
+}
+
+bool ContactSource::bonded(const Pair *, int, int, int, double) const
+{
+  return false;
 }
