@@ -6,6 +6,7 @@
 
 #include "fix_cluster_breakmerge.h"
 #include "pair_gran_cluster.h"
+#include "step_scene.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -32,7 +33,7 @@ FixClusterTimestep::FixClusterTimestep(LAMMPS *lmp, int narg, char **arg) :
   time_depend = 1;
   restart_global = 1;
   scalar_flag = vector_flag = 1;
-  size_vector = 9;
+  size_vector = 10;
   global_freq = 1;
   extscalar = extvector = 0;
 
@@ -63,6 +64,7 @@ void FixClusterTimestep::init()
   if (!modify->get_fix_by_style("^dt/reset").empty())
     error->all(FLERR, "Fix {} {}: fix dt/reset changes the same time step", style, id);
   check_order();
+  check_fixes();
   find_pair();
   const auto fixes = modify->get_fix_by_style("^cluster/breakmerge");
   breakmerge = fixes.empty() ? nullptr : dynamic_cast<FixClusterBreakMerge *>(fixes[0]);
@@ -85,22 +87,41 @@ void FixClusterTimestep::check_order() const
 
 /* ---------------------------------------------------------------------- */
 
+void FixClusterTimestep::check_fixes() const
+{
+  const auto unfit = unfit_fixes(lmp, settings.energy_test);
+  if (unfit.empty()) return;
+  std::string all;
+  for (const auto &fix : unfit) all += (all.empty() ? "" : "; ") + fix;
+  error->all(FLERR, "Fix {} {} changes and repeats time steps, which does not go with {}", style, id, all);
+}
+
+/* ----------------------------------------------------------------------
+   the law of pair gran/cluster is that of all contacts, or it is not used
+------------------------------------------------------------------------- */
+
 void FixClusterTimestep::find_pair()
 {
   const std::string me = fmt::format("Fix {} {}", style, id);
   contacts.find(me, groupbit, 0.0);
-  pair = dynamic_cast<PairGranCluster *>(force->pair_match("gran/cluster", 1));
-  if (!pair && settings.energy_test)
-    error->all(FLERR,
-               "{}: the energy test needs pair style gran/cluster, which knows the energy stored in its springs; "
-               "pair style {} does not: use 'energy off'",
-               me, force->pair_style);
+  auto *ours = dynamic_cast<PairGranCluster *>(force->pair_match("gran/cluster", 1));
+  const auto others = other_forces(lmp);
+  pair = others.empty() ? ours : nullptr;
+  if (!pair && settings.energy_test) {
+    std::string all;
+    for (const auto &other : others) all += (all.empty() ? "" : " and ") + other;
+    error->all(
+        FLERR,
+        "{}: the energy test needs pair style gran/cluster, which knows the energy stored in its springs, for "
+        "all forces between clusters; {} {} not: use 'energy off'",
+        me, all, others.size() > 1 ? "do" : "does");
+  }
   if (settings.contact_factor > 0.0 && !(stiffness() > 0.0))
     error->all(FLERR,
                "{}: the contact bound needs the stiffness k_n of pair style {}: add 'stiffness K_N' "
                "[force/length], or 'contact off'",
                me, force->pair_style);
-  if (pair) pair->keep_undo(settings.energy_test);
+  if (ours) ours->keep_undo(settings.energy_test);
   motion.set_pair(pair);
 }
 

@@ -54,7 +54,7 @@ class FixClusterTimestep : public Fix {
   StepState state;    // at the start of the step being taken
   StepMotion motion;
   EnergyBalance energy;
-  PairGranCluster *pair;    // null: a stock pair style
+  PairGranCluster *pair;    // null: not of all contacts
   FixClusterBreakMerge *breakmerge;
 
   // of the step being taken
@@ -69,8 +69,10 @@ class FixClusterTimestep : public Fix {
   double worst_depth;    // largest that was looked at and accepted
 
   void check_order() const;
+  void check_fixes() const;
   void find_pair();
   double stiffness() const;    // k_n
+  double stored_energy();
 
   void look();
   double choose_step();

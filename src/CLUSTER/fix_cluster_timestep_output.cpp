@@ -6,7 +6,9 @@
 
 #include "fix_cluster_timestep.h"
 
+#include "atom.h"
 #include "comm.h"
+#include "force.h"
 #include "update.h"
 
 #include <algorithm>
@@ -47,7 +49,7 @@ double FixClusterTimestep::compute_scalar()
 
 /* ----------------------------------------------------------------------
    step, rejections by overlap, by energy, steps untested, overlap now, worst overlap accepted, energy error of the
-   last step, worst accepted, steps let pass
+   last step, worst accepted, steps let pass, elastic energy of all contacts now
 ------------------------------------------------------------------------- */
 
 double FixClusterTimestep::compute_vector(int n)
@@ -67,9 +69,27 @@ double FixClusterTimestep::compute_vector(int n)
       return energy.error_of_last();
     case 7:
       return energy.worst_error();
-    default:
+    case 8:
       return static_cast<double>(count[LET_PASS]);
+    default:
+      return stored_energy();
   }
+}
+
+/* ----------------------------------------------------------------------
+   a contact of clusters of two ranks stands on both with newton off
+------------------------------------------------------------------------- */
+
+double FixClusterTimestep::stored_energy()
+{
+  contacts.find_contacts();
+  double mine = 0.0, all;
+  for (const auto &contact : contacts.contacts()) {
+    const bool on_both = !force->newton_pair && contact.j >= atom->nlocal;
+    mine += (on_both ? 0.5 : 1.0) * contacts.energy_now(contact);
+  }
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -5,8 +5,11 @@
 #include "step_state.h"
 
 #include "atom.h"
+#include "fix.h"
+#include "modify.h"
 
 #include <cstring>
+#include <utility>
 
 using namespace LAMMPS_NS;
 
@@ -33,6 +36,25 @@ void StepState::keep(bool forces)
   if (!forces) return;
   copy(f, atom->f, clusters);
   if (atom->torque_flag) copy(torque, atom->torque, clusters);
+  keep_walls();
+}
+
+/* ----------------------------------------------------------------------
+   a wall packs the history of a cluster as for one that leaves this rank
+------------------------------------------------------------------------- */
+
+void StepState::keep_walls()
+{
+  walls.clear();
+  for (const auto &fix : modify->get_fix_by_style("^wall/gran")) {
+    const int most = fix->maxsize_restart() + (fix->peratom_flag ? fix->size_peratom_cols : 0);
+    if (most == 0) continue;    // it keeps nothing
+    Wall wall{fix, std::vector<double>(static_cast<std::size_t>(clusters) * most)};
+    std::size_t n = 0;
+    for (int i = 0; i < clusters; i++) n += fix->pack_exchange(i, wall.history.data() + n);
+    wall.history.resize(n);
+    walls.push_back(std::move(wall));
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -49,6 +71,10 @@ void StepState::put_back()
   put_back_motion();
   copy_back(atom->f, f, clusters);
   if (atom->torque_flag) copy_back(atom->torque, torque, clusters);
+  for (Wall &wall : walls) {
+    std::size_t n = 0;
+    for (int i = 0; i < clusters; i++) n += wall.fix->unpack_exchange(i, wall.history.data() + n);
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -57,5 +83,6 @@ double StepState::bytes() const
 {
   double numbers = 0.0;
   for (const auto *kept : {&x, &v, &f, &omega, &torque}) numbers += static_cast<double>(kept->capacity());
+  for (const Wall &wall : walls) numbers += static_cast<double>(wall.history.capacity());
   return numbers * sizeof(double);
 }
