@@ -34,7 +34,7 @@ void ContactSums::add_up(const BreakMergeSettings &settings)
   for (const auto &contact : pairs.contacts()) {
     const int i = contact.i, j = contact.j;
     const bool both = force->newton_pair || j < nlocal;
-    GranularPairs::Load load = {0.0, 0.0};
+    ContactSource::Load load = {0.0, 0.0};
     if (want_power || contact.noted) load = pairs.load(contact);
     total += load.force * ((atom->mask[i] & groupbit ? 1 : 0) + (both && atom->mask[j] & groupbit ? 1 : 0));
     if (want_sums) {

@@ -11,7 +11,7 @@
 #include "engine.h"
 
 #include "breakmerge_settings.h"
-#include "granular_pairs.h"
+#include "contact_source.h"
 #include "halo.h"
 
 #include <vector>
@@ -20,7 +20,7 @@ namespace LAMMPS_NS {
 
 class ContactSums : protected EnginePointers {
  public:
-  ContactSums(class LAMMPS *lmp, GranularPairs &contacts, Halo &h, int group) :
+  ContactSums(class LAMMPS *lmp, ContactSource &contacts, Halo &h, int group) :
       EnginePointers(lmp), pairs(contacts), halo(h), groupbit(group), total(0.0)
   {
   }
@@ -35,7 +35,7 @@ class ContactSums : protected EnginePointers {
   bool ended_since(std::vector<tagint> &before, int i);
 
  private:
-  GranularPairs &pairs;
+  ContactSource &pairs;
   Halo &halo;
   int groupbit;
   struct Sum {

@@ -18,10 +18,10 @@ FixStyle(cluster/breakmerge,FixClusterBreakMerge);
 #include "census.h"
 #include "cluster_columns.h"
 #include "cluster_walls.h"
+#include "contact_source.h"
 #include "contact_sums.h"
 #include "event_apply.h"
 #include "event_plan.h"
-#include "granular_pairs.h"
 #include "newborn_tags.h"
 #include "size_check.h"
 
@@ -62,7 +62,7 @@ class FixClusterBreakMerge : public ClusterFix, public ClusterDEM::KnowsClusterK
 
  private:
   ClusterColumns columns;
-  GranularPairs pairs;
+  ContactSource pairs;
   ContactSums contacts;
   SizeCheck sizes;
   ClusterWalls walls;

@@ -13,8 +13,17 @@ FixStyle(cluster/timestep,FixClusterTimestep);
 
 #include "fix.h"
 
-#include "granular_pairs.h"
+#include "contact_source.h"
+#include "contact_survey.h"
+#include "energy_balance.h"
 #include "model/step_control.h"
+#include "step_clock.h"
+#include "step_motion.h"
+#include "step_settings.h"
+#include "step_state.h"
+
+#include <array>
+#include <string>
 
 namespace LAMMPS_NS {
 class FixClusterBreakMerge;
@@ -37,91 +46,47 @@ class FixClusterTimestep : public Fix {
   double memory_usage() override;
 
  private:
-  // ---- settings
-  double contact_factor;    // C, 0: no such bound
-  double stiffness;         // k_n; of pair gran/cluster unless given
-  bool stiffness_given;
-  double overlap_limit;    // F: an overlap stays below F d_i
-  bool energy_test;
-  double tolerance;
-  bool kinetic;    // the printed test: kinetic energy must not rise
-  bool predict;
-  double floor_given;    // smallest step, 0: as the retries have it
+  StepSettings settings;
   ClusterDEM::StepSize step;
-
-  // ---- what init() finds
-  GranularPairs pairs;
-  PairGranCluster *pair;    // null: a stock pair style
+  ContactSource contacts;
+  ContactSurvey survey;
+  StepClock clock;
+  StepState state;    // at the start of the step being taken
+  StepMotion motion;
+  EnergyBalance energy;
+  PairGranCluster *pair;    // null: not of all contacts
   FixClusterBreakMerge *breakmerge;
 
-  // ---- of the step being taken
-  struct Motion {                 // of all clusters on all ranks, at the start of the step
-    double closing;               // no two approach each other faster, whatever the step
-    double speed;                 // none is faster
-    double acceleration;          // none is larger
-    double lightest, heaviest;    // mass
-    double smallest;              // diameter
-  } motion;
-  double range, fastest;    // of velocities, when last looked at; how much that may have grown since:
-  double gain, acceleration_at_look;
-  int looks_ago;
-  bool look_due;           // clusters changed, or moved by other than forces
-  double overlap_bound;    // no overlap is larger than this times d_i
-  bool test_due;           // overlaps are looked at after the drift
-  bool repeating;          // the drift of the other fixes is done again
-  double moved;            // bound on the way of any cluster since the lists were built
-  double kinetic_mine;     // energy of my clusters, when last looked at
-  double energy_all;       // at the end of the last step tested
-  double most_energy;      // in this run
-  ClusterDEM::Restlessness restless_all;
-  double recent_error;    // largest of the last steps, as a share of what would be too much
+  // of the step being taken
+  double depth_bound;    // no overlap is larger than this times d_i
+  double moved;          // bound on the way of any cluster since the lists were built
+  bool test_due;         // overlaps are looked at after the drift
+  bool repeating;        // the drift of the other fixes is done again
 
-  // ---- state at the start of the step, of my clusters
-  std::vector<double> x_before, v_before, f_before, omega_before, torque_before;
-  int saved;    // clusters, -1: not saved
-  bool saved_forces;
-
-  // clusters that contacts push, in the order of their indices: at the start of the step and at its end. v and omega
-  // as they were at the start of the step, of newcomers before its end.
-  struct Pushed {
-    int i;
-    ClusterDEM::Vec3 force, torque, v, omega;
-  };
-  std::vector<Pushed> pushed_before, pushed;
-  double elastic_before;
-
-  // ---- totals since the fix was defined, the same on all ranks
+  // since the fix was defined, the same on all ranks
   enum { BY_OVERLAP, BY_ENERGY, UNTESTED, LET_PASS, NCOUNTS };
-  bigint count[NCOUNTS];
-  double worst_overlap;    // largest that was looked at and accepted
-  double last_error, worst_error;
+  std::array<bigint, NCOUNTS> count;
+  double worst_depth;    // largest that was looked at and accepted
 
   void check_order() const;
+  void check_fixes() const;
   void find_pair();
-  void observe();
+  double stiffness() const;    // k_n
+  double stored_energy();
+
   void look();
-  double strongest_contact() const;
-  double largest_force();
-  [[noreturn]] void stop_not_finite();
-  void find_smallest();
-  bool may_be_rejected() const;
-  void save(bool forces);
-  void restore_positions();
   double choose_step();
+  double predict(double wanted, const ContactSurvey::Found &now);
   bool cannot_be_taken_back() const;
   bool changed_clusters() const;
-  void set_step(double dt);
   void drift_again();
-  void collect_pushed();
-  double kinetic_energy() const;
-  void note_start();
-  double contact_work() const;
   void take_back();
 
+  using Meeting = ContactSurvey::Meeting;
   [[noreturn]] void stop(const std::string &message, bool drifted);
-  [[noreturn]] void stop_too_soft(const GranularPairs::Meeting &, bool drifted);
+  [[noreturn]] void stop_too_soft(const Meeting &, bool drifted);
   [[noreturn]] void stop_energy(double error);
-  bool too_soft(const GranularPairs::Meeting &) const;
+  bool too_soft(const Meeting &) const;
 };
 
 }    // namespace LAMMPS_NS

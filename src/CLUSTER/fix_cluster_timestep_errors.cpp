@@ -24,11 +24,11 @@ using namespace ClusterDEM;
    deep in contact and comes nearer after two halvings will not be stopped by a third.
 ------------------------------------------------------------------------- */
 
-bool FixClusterTimestep::too_soft(const GranularPairs::Meeting &m) const
+bool FixClusterTimestep::too_soft(const Meeting &m) const
 {
-  const double most = overlap_limit * m.smaller;
-  if (pair) return pair->contact_law().peak_overlap(m.mass, std::max(0.0, m.overlap), m.closing) >= most;
-  return m.overlap > 0.5 * most && m.closing > 0.0;
+  const double most = settings.overlap_limit * m.approach.smaller;
+  if (!pair) return deep_and_closing(m.approach.overlap, m.approach.closing, most);
+  return pair->contact_law().peak_overlap(m.mass, std::max(0.0, m.approach.overlap), m.approach.closing) >= most;
 }
 
 /* ----------------------------------------------------------------------
@@ -37,13 +37,9 @@ bool FixClusterTimestep::too_soft(const GranularPairs::Meeting &m) const
 
 void FixClusterTimestep::stop(const std::string &message, bool drifted)
 {
-  if (drifted) restore_positions();
+  if (drifted) state.put_back_motion();
   const bigint good = update->ntimestep - 1;
-  if (update->atimestep <= good) {
-    update->atime += (good - update->atimestep) * update->dt;
-    update->atimestep = good;
-  }
-  update->ntimestep = good;
+  clock.stand_at(good);
   const bigint mine = atom->nlocal;
   bigint all = 0;
   MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
@@ -58,27 +54,29 @@ void FixClusterTimestep::stop(const std::string &message, bool drifted)
   error->all(FLERR, "Fix {} {}: {} The state of step {} is in {}.", style, id, message, good, file);
 }
 
-void FixClusterTimestep::stop_too_soft(const GranularPairs::Meeting &m, bool drifted)
+void FixClusterTimestep::stop_too_soft(const Meeting &m, bool drifted)
 {
-  if (m.smaller == 0.0)
+  if (m.approach.smaller == 0.0)
     stop(fmt::format("clusters approach each other at up to {:.4g} and could pass unseen at the smallest step "
                      "{:.4g}: allow "
                      "a smaller floor or more retries, or 'predict yes'.",
-                     motion.closing, update->dt),
+                     motion.bounds().closing(), update->dt),
          drifted);
-  const double most = overlap_limit * m.smaller;
+  const double most = settings.overlap_limit * m.approach.smaller;
   const std::string who =
       fmt::format("clusters {:.0f} and {:.0f} overlap by {:.4g}, {:.3g} of the smaller diameter {:.4g}, "
                   "and approach at {:.4g}",
-                  m.tags[0], m.tags[1], m.overlap, m.overlap / m.smaller, m.smaller, m.closing);
+                  m.tags[0], m.tags[1], m.approach.overlap, m.approach.overlap / m.approach.smaller,
+                  m.approach.smaller, m.approach.closing);
   if (!too_soft(m))
     stop(fmt::format("{}, beyond the limit {} at the smallest step {:.4g}: allow a smaller floor or more retries.",
-                     who, overlap_limit, update->dt),
+                     who, settings.overlap_limit, update->dt),
          drifted);
-  double enough = stopping_stiffness(m.mass, m.closing, most);
+  double enough = stopping_stiffness(m.mass, m.approach.closing, most);
   if (pair) {
     const auto &law = pair->contact_law();
-    enough = law.stiffness_for(law.peak_overlap(m.mass, std::max(0.0, m.overlap), m.closing), most);
+    enough =
+        law.stiffness_for(law.peak_overlap(m.mass, std::max(0.0, m.approach.overlap), m.approach.closing), most);
   }
   stop(fmt::format(
            "the contact spring is too soft, no smaller step helps: {}; k_n of at least {:.4g} would keep them "
@@ -89,12 +87,13 @@ void FixClusterTimestep::stop_too_soft(const GranularPairs::Meeting &m, bool dri
 
 void FixClusterTimestep::stop_energy(double error_now)
 {
-  const std::string what = kinetic ? "the kinetic energy rises (which gravity, gas and springs set free do as "
-                                     "well: 'test balance' tells them apart)"
-                                   : "contacts create energy";
+  const std::string what = settings.kinetic
+      ? "the kinetic energy rises (which gravity, gas and springs set free do as "
+        "well: 'test balance' tells them apart)"
+      : "contacts create energy";
   stop(fmt::format(
            "{}: {:.3g} of it in one step, above {:.3g}, at the smallest step {:.4g} after {} rejections in a row. "
            "Use a larger energy tolerance, a smaller floor or more retries.",
-           what, error_now, tolerance, update->dt, step.rejections_in_a_row()),
+           what, error_now, settings.tolerance, update->dt, step.rejections_in_a_row()),
        false);
 }

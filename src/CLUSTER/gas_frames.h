@@ -10,7 +10,7 @@
 
 #include "engine.h"
 
-#include "gas_file.h"
+#include "gas_series.h"
 #include "model/gas_grid.h"
 
 #include <string>
@@ -23,12 +23,12 @@ class GasFrames : protected EnginePointers {
   enum Edge { AS_THE_BOX, PERIODIC, CLAMP };
   static constexpr int MOST_VALUES = 8;    // of a point: velocity, fluctuation, density, viscosity
 
-  // `me` is the fix in messages; `word` a file, or a pattern with * for several; `caret` its place in the command
-  GasFrames(class LAMMPS *lmp, const std::string &me, const std::string &word, int caret);
+  // `fix` is the fix in messages; `word` a file, or a pattern with * for several; `caret` its place in the command
+  GasFrames(class LAMMPS *lmp, const std::string &fix, const std::string &word, int caret);
 
   // the choices of the command, before init()
   void set_edge(int axis, Edge edge) { edges[axis] = edge; }
-  void set_period(double period, int caret);
+  void set_period(double period, int caret) { series.set_period(period, caret); }
   void leave_out(int quantity) { wanted[quantity] = false; }
 
   bool has(int quantity) const { return wanted[quantity]; }
@@ -44,10 +44,7 @@ class GasFrames : protected EnginePointers {
   double bytes() const;    // that this rank holds
 
  private:
-  std::string me;
-  std::vector<GasFile> files;    // by time
-  std::vector<double> times;
-  double period;    // in time; 0: the series does not repeat
+  GasSeries series;
   std::array<Edge, 3> edges;
   std::array<bool, GasFile::QUANTITIES> wanted;
   std::array<int, GasFile::QUANTITIES> begin;
@@ -66,11 +63,6 @@ class GasFrames : protected EnginePointers {
   std::array<Held, 2> held;
   ClusterDEM::FramePair now;
   const double *before, *after;
-
-  std::vector<GasFile> open_all(const std::string &word) const;
-  void check_alike(const GasFile &file, const GasFile &first) const;
-  void share(int caret);
-  void check_units(int caret) const;
 
   void fit_box();
   void fit_axis(int axis);

@@ -40,14 +40,14 @@ void GasFrames::fit_box()
 
 void GasFrames::fit_axis(int axis)
 {
-  const std::vector<double> &planes = (*files[0].planes())[axis];
+  const std::vector<double> &planes = series.planes()[axis];
   const char name = "xyz"[axis];
   const double boxlo = domain->boxlo[axis], length = domain->prd[axis];
   const bool box_periodic = domain->periodicity[axis];
   const bool periodic = edges[axis] == PERIODIC || (edges[axis] == AS_THE_BOX && box_periodic);
   if (edges[axis] == PERIODIC && !box_periodic)
-    error->all(FLERR, "{}: edge {} periodic needs a box that is periodic along {}: use 'edge {} clamp'", me, name,
-               name, name);
+    error->all(FLERR, "{}: edge {} periodic needs a box that is periodic along {}: use 'edge {} clamp'",
+               series.name(), name, name, name);
 
   if (planes.size() == 1) {
     axes[axis] = GridAxis(planes, Fold());
@@ -59,7 +59,7 @@ void GasFrames::fit_axis(int axis)
         FLERR,
         "{}: the field is {} long along {}, from {} to {}, more than the period, the length {} of the box: use "
         "'edge {} clamp'",
-        me, extent, name, planes.front(), planes.back(), length, name);
+        series.name(), extent, name, planes.front(), planes.back(), length, name);
   if (edges[axis] == AS_THE_BOX) {
     const double below = planes[1] - planes[0], above = planes.back() - planes[planes.size() - 2];
     const double rounding = 1.0e-6 * length;
@@ -69,7 +69,7 @@ void GasFrames::fit_axis(int axis)
           "{}: the box reaches from {} to {} along {}, the field from {} to {}, and no more than one spacing "
           "of its points beyond: use a field that covers the box, or say what holds outside of it by 'edge {} "
           "clamp'{}",
-          me, boxlo, boxlo + length, name, planes.front(), planes.back(), name,
+          series.name(), boxlo, boxlo + length, name, planes.front(), planes.back(), name,
           box_periodic ? fmt::format(" or 'edge {} periodic'", name) : "");
   }
   axes[axis] = periodic ? GridAxis::periodic(planes, length)

@@ -14,7 +14,7 @@ PairStyle(gran/cluster,PairGranCluster);
 #include "pair_gran_hooke_history.h"
 
 #include "model/contact_law.h"
-#include "model/step_control.h"
+#include "model/step_energy.h"
 
 #include <vector>
 
@@ -43,7 +43,7 @@ class PairGranCluster : public PairGranHookeHistory {
     double force;    // |F_ij|
   };
   void record_contacts(bigint step) { record_step = step; }
-  bool contacts_recorded(bigint step) const { return recorded_step == step; }
+  bool contacts_recorded(bigint step) const { return step >= 0 && recorded_step == step; }
   const std::vector<Contact> &contacts() const { return recorded; }
 
   // this rank's share of the energy stored in the springs, as of the last compute()
@@ -82,7 +82,7 @@ class PairGranCluster : public PairGranHookeHistory {
 
   struct Touching;    // one pair in contact, its force
   void flatten_list();
-  template <bool ROTATE> Touching look_at(int i, int j, double rsq) const;
+  template <bool ROTATE> Touching look_at(int i, int j, const ClusterDEM::Vec3 &d) const;
   template <bool ROTATE, bool FRICTION> void compute_contacts();
   template <bool ROTATE> void add_force(int i, int j, const Touching &);
   double *displacement_of(int i, int j);

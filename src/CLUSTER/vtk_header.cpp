@@ -7,63 +7,22 @@
 
 #include "vtk_header.h"
 
-#include "vtk_numbers.h"
-
-#include <algorithm>
+#include <cmath>
 #include <map>
 #include <sstream>
 
 using namespace LAMMPS_NS;
-
-static constexpr double MOST = 1.0e15;    // a count that a double holds
-
-static std::string lower(std::string word)
-{
-  std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
-  return word;
-}
-
-// of an unknown file, for a message
-static std::string printable(const std::string &line)
-{
-  std::string text = line.substr(0, 40);
-  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return !std::isprint(c); }, '?');
-  return text;
-}
-
-static std::string join(const std::vector<std::string> &words)
-{
-  std::string text;
-  for (const auto &word : words) text += (text.empty() ? "" : " ") + word;
-  return printable(text);
-}
-
-// in binary files
-static int bytes_of(const std::string &type)
-{
-  static const std::map<std::string, int> bytes = {
-      {"char", 1},          {"unsigned_char", 1}, {"short", 2},         {"unsigned_short", 2}, {"int", 4},
-      {"unsigned_int", 4},  {"long", 8},          {"unsigned_long", 8}, {"vtkidtype", 8},      {"vtktypeint64", 8},
-      {"vtktypeuint64", 8}, {"float", 4},         {"double", 8}};
-  const auto found = bytes.find(lower(type));
-  return found == bytes.end() ? 0 : found->second;
-}
+using namespace LAMMPS_NS::VtkWords;
 
 /* ---------------------------------------------------------------------- */
 
 VtkHeader::VtkHeader(GasFile &f) :
-    file(f), in(f.path_, std::ios::binary), length(0), even(false), dimensions{0, 0, 0}, origin{0.0, 0.0, 0.0},
-    spacing{1.0, 1.0, 1.0}, points(0), tuples(0), section(NOWHERE), velocity_at_cells(false)
+    file(f), in(f.path_), even(false), dimensions{0, 0, 0}, origin{0.0, 0.0, 0.0}, spacing{1.0, 1.0, 1.0},
+    points(0), tuples(0), section(NOWHERE), velocity_at_cells(false)
 {
-  if (!in) throw std::runtime_error("the file cannot be opened");
-  in.seekg(0, std::ios::end);
-  length = in.tellg();
-  in.seekg(0);
-  if (length < 0) throw std::runtime_error("the file cannot be read: is it a folder?");
-
   read_beginning();
   Words words;
-  while (next(words)) {
+  while (in.next(words)) {
     if (section == NOWHERE) read_geometry(words);
     else read_attribute(words);
   }
@@ -80,7 +39,7 @@ void VtkHeader::read_beginning()
 {
   static const std::string mark = "# vtk DataFile Version ";
   std::string line;
-  std::getline(in, line);
+  in.line(line);
   double version = 0.0;
   if (lower(line.substr(0, mark.size())) != lower(mark))
     throw std::runtime_error("not a legacy VTK file: its first line is '" + printable(line) + "', not '" + mark +
@@ -89,39 +48,21 @@ void VtkHeader::read_beginning()
   if (!(version >= 1.0 && version < 5.15))
     throw std::runtime_error("version '" + printable(line.substr(mark.size())) +
                              "' of VTK's format: known are 1.0 to 5.1");
-  std::getline(in, file.title_);
+  in.line(file.title_);
   if (!file.title_.empty() && file.title_.back() == '\r') file.title_.pop_back();
 
   Words words;
-  next(words);
+  in.next(words);
   const std::string format = words.empty() ? "" : lower(words[0]);
   if (format != "ascii" && format != "binary")
     throw std::runtime_error("the third line is '" + join(words) + "' (must be ASCII or BINARY)");
-  file.binary_ = format == "binary";
-  next(words);
+  in.set_binary(format == "binary");
+  file.binary_ = in.binary();
+  in.next(words);
   const std::string dataset = words.size() == 2 && lower(words[0]) == "dataset" ? lower(words[1]) : "";
   even = dataset == "structured_points";
   if (!even && dataset != "rectilinear_grid")
     throw std::runtime_error("'" + join(words) + "' (must be DATASET RECTILINEAR_GRID or STRUCTURED_POINTS)");
-}
-
-/* ----------------------------------------------------------------------
-   words of the next line that is not empty; METADATA, up to an empty line, is left out
-------------------------------------------------------------------------- */
-
-bool VtkHeader::next(Words &words)
-{
-  std::string line;
-  words.clear();
-  while (words.empty()) {
-    if (!std::getline(in, line)) return false;
-    std::istringstream text(line);
-    for (std::string word; text >> word;) words.push_back(word);
-    if (words.empty() || lower(words[0]) != "metadata") continue;
-    while (std::getline(in, line) && line.find_first_not_of(" \t\r") != std::string::npos) {}
-    words.clear();
-  }
-  return true;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -155,7 +96,7 @@ void VtkHeader::read_coordinates(int axis, const Words &words)
   if (integer(words, 1) != dimensions[axis])
     throw std::runtime_error("'" + join(words) + "' does not fit DIMENSIONS, which has " +
                              std::to_string(dimensions[axis]));
-  planes[axis] = numbers(dimensions[axis], word(words, 2), names[axis]);
+  planes[axis] = in.numbers(dimensions[axis], word(words, 2), names[axis]);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -169,7 +110,7 @@ void VtkHeader::check_grid()
     auto &x = planes[axis];
     if (dimensions[axis] == 0) throw std::runtime_error("no DIMENSIONS before POINT_DATA");
     all *= static_cast<double>(dimensions[axis]);
-    if (all > static_cast<double>(length))    // before there is memory for them
+    if (all > static_cast<double>(in.length()))    // before there is memory for them
       throw std::runtime_error("DIMENSIONS give more points than the file has bytes");
     if (even)
       for (std::int64_t k = 0; k < dimensions[axis]; k++) x.push_back(origin[axis] + k * spacing[axis]);
@@ -212,8 +153,8 @@ void VtkHeader::read_attribute(const Words &words)
   else if (keyword == "scalars") {
     const std::int64_t each = words.size() > 3 ? integer(words, 3) : 1;
     Words table;
-    const auto here = in.tellg();
-    if (next(table) && lower(table[0]) != "lookup_table") in.seekg(here);
+    const auto here = in.place();
+    if (in.next(table) && lower(table[0]) != "lookup_table") in.go_to(here);
     array(word(words, 1), each, tuples, word(words, 2));
   } else if (keyword == "texture_coordinates") array(word(words, 1), integer(words, 2), tuples, word(words, 3));
   else if (keyword == "color_scalars") array(word(words, 1), integer(words, 2), tuples, "unsigned_char");
@@ -227,10 +168,10 @@ void VtkHeader::read_fields(const Words &words)
 {
   Words one;
   for (std::int64_t k = integer(words, 2); k > 0; k--) {
-    if (!next(one)) throw std::runtime_error("the file ends within '" + join(words) + "'");
+    if (!in.next(one)) throw std::runtime_error("the file ends within '" + join(words) + "'");
     const std::int64_t each = integer(one, 1), n = integer(one, 2);
     if (section == NOWHERE && (one[0] == "TIME" || one[0] == "TimeValue") && each * n == 1) {
-      file.time_ = numbers(1, word(one, 3), one[0])[0];
+      file.time_ = in.numbers(1, word(one, 3), one[0])[0];
       file.has_time_ = true;
       if (!std::isfinite(file.time_)) throw std::runtime_error(one[0] + " is not finite");
     } else array(one[0], each, n, word(one, 3));
@@ -252,74 +193,10 @@ void VtkHeader::array(const std::string &name, std::int64_t each, std::int64_t n
                                std::to_string(points) + ")");
     if (lower(type) != "float" && lower(type) != "double")
       throw std::runtime_error(what + " is of type " + printable(type) + " (must be float or double)");
-    file.place_[quantity] = {in.tellg(), bytes_of(type)};
+    file.place_[quantity] = {in.place(), VtkStream::bytes_of(type)};
   }
-  if (static_cast<double>(each) * static_cast<double>(n) > 8.0 * static_cast<double>(length))    // not even bits
+  if (static_cast<double>(each) * static_cast<double>(n) >
+      8.0 * static_cast<double>(in.length()))    // not even bits
     throw std::runtime_error("the file ends within array " + printable(name));
-  pass(each * n, type, "array " + printable(name));
-}
-
-/* ---------------------------------------------------------------------- */
-
-void VtkHeader::pass(std::int64_t count, const std::string &type, const std::string &what)
-{
-  if (!file.binary_) {
-    std::string number;
-    for (std::int64_t k = 0; k < count; k++)
-      if (!(in >> number))
-        throw std::runtime_error("the file ends within " + what + ": " + std::to_string(k) + " of " +
-                                 std::to_string(count) + " numbers");
-    return;
-  }
-  const std::int64_t bytes = lower(type) == "bit" ? (count + 7) / 8 : count * bytes_of(type);
-  if (count && !bytes) throw std::runtime_error(what + " is of the unknown type " + printable(type));
-  const std::int64_t begin = in.tellg();
-  if (bytes > length - begin)
-    throw std::runtime_error("the file ends within " + what + ": " + std::to_string(length - begin) + " of " +
-                             std::to_string(bytes) + " bytes");
-  in.seekg(begin + bytes);
-}
-
-/* ---------------------------------------------------------------------- */
-
-std::vector<double> VtkHeader::numbers(std::int64_t count, const std::string &type, const std::string &what)
-{
-  if (lower(type) != "float" && lower(type) != "double")
-    throw std::runtime_error(what + " of type " + printable(type) + " (must be float or double)");
-  const std::int64_t begin = in.tellg();
-  pass(count, type, what);
-  const std::int64_t end = in.tellg();
-  in.seekg(begin);
-  std::vector<double> values;
-  values.reserve(count);
-  const int size = bytes_of(type);
-  char bytes[8];
-  for (std::int64_t k = 0; k < count; k++)
-    values.push_back(file.binary_ ? (in.read(bytes, size), from_big_endian(bytes, size)) : next_number(in, what));
-  in.seekg(end);
-  return values;
-}
-
-/* ---------------------------------------------------------------------- */
-
-const std::string &VtkHeader::word(const Words &words, std::size_t k) const
-{
-  if (k >= words.size()) throw std::runtime_error("'" + join(words) + "' ends too early");
-  return words[k];
-}
-
-double VtkHeader::number(const Words &words, std::size_t k) const
-{
-  double value;
-  if (!to_number(word(words, k), value))
-    throw std::runtime_error("'" + join(words) + "': " + printable(words[k]) + " is no number");
-  return value;
-}
-
-std::int64_t VtkHeader::integer(const Words &words, std::size_t k) const
-{
-  const double value = number(words, k);
-  if (value != std::floor(value) || !(value >= 0.0 && value <= MOST))
-    throw std::runtime_error("'" + join(words) + "': " + printable(words[k]) + " is no integer from 0 to 1e15");
-  return static_cast<std::int64_t>(value);
+  in.pass(each * n, type, "array " + printable(name));
 }

@@ -233,7 +233,7 @@ def fixes(control: str) -> str:
     )
 
 
-SIZE = 11  # first column of the fix cluster/breakmerge vector
+SIZE = 12  # first column of the fix cluster/breakmerge vector
 
 
 def test_with_events_count_mass_and_energy_hold(tmp_path):

@@ -42,6 +42,11 @@ std::tuple<double, double> collide(const ContactLaw &law, double speed)
 
 }    // namespace
 
+TEST(ContactLaw, ReducedMass)
+{
+  EXPECT_DOUBLE_EQ(reduced_mass(3.0, 6.0), 2.0);
+}
+
 TEST(ContactLaw, PublishedDampingRatio)
 {
   EXPECT_NEAR(damping_ratio(0.3), 0.358, 5.0e-4);    // MODEL section 3

@@ -32,12 +32,58 @@ TEST(StepControl, PassageFindsTheNearestPoint)
   EXPECT_DOUBLE_EQ(passage({0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, 1.0).closing, 0.0);
 }
 
-TEST(StepControl, OnlyCreatedEnergyCounts)
+TEST(StepControl, ApproachAlongTheWay)
 {
-  EXPECT_EQ(relative_creation(-1.0, 2.0), 0.0);
-  EXPECT_EQ(relative_creation(0.0, 0.0), 0.0);
-  EXPECT_EQ(relative_creation(1.0, 2.0), 0.5);
-  EXPECT_EQ(relative_creation(1.0, 0.0), INFINITY);
+  // radii 2 and 1; the step of 0.5 led along x from (3, 0, 0.5) to (-1, 0, 0.5): nearest at (0, 0, 0.5)
+  const Approach a = approach(2.0, 1.0, {-1.0, 0.0, 0.5}, {-8.0, 0.0, 0.0}, 0.5);
+  EXPECT_DOUBLE_EQ(a.overlap, 2.5);
+  EXPECT_DOUBLE_EQ(a.smaller, 2.0);
+  EXPECT_DOUBLE_EQ(a.depth(), 1.25);
+  EXPECT_DOUBLE_EQ(a.closing, 8.0 * 3.0 / std::sqrt(9.25));    // when it set out
+  // now: 2.5 apart along y, which is an overlap of 0.5
+  const Approach now = approach(2.0, 1.0, {0.0, 2.5, 0.0}, {7.0, -5.0, 0.0}, 0.0);
+  EXPECT_DOUBLE_EQ(now.closing, 5.0);
+  EXPECT_DOUBLE_EQ(now.time_to(0.75), 0.2);    // overlap 1.5
+}
+
+TEST(StepControl, MotionBetweenLooks)
+{
+  MotionBounds motion;
+  motion.looked(3.0, 2.0, 10.0);
+  EXPECT_EQ(motion.closing(), 3.0);
+  EXPECT_DOUBLE_EQ(motion.closing_within(0.1), 4.0);
+  EXPECT_DOUBLE_EQ(motion.approach_within(0.1), 0.4);
+  EXPECT_DOUBLE_EQ(motion.way_within(0.1), 0.3);
+  EXPECT_DOUBLE_EQ(motion.way_without_force(0.1), 0.2);
+  EXPECT_DOUBLE_EQ(motion.with_contacts(5.0), 2.0 * 10.0 + 12.0 * 5.0);
+  motion.pushed(30.0, 0.1);    // a mean of 20 for 0.1: each gained 2 at most, two of them 4
+  EXPECT_DOUBLE_EQ(motion.closing(), 1.01 * 3.0 + 4.0);
+  EXPECT_DOUBLE_EQ(motion.way_without_force(1.0), 1.01 * 2.0 + 2.0);
+  motion.pushed(10.0, 0.1);
+  EXPECT_DOUBLE_EQ(motion.closing(), 1.01 * 3.0 + 8.0);
+  motion.looked(1.0, 1.0, 0.0);
+  EXPECT_EQ(motion.closing_within(5.0), 1.0);
+}
+
+TEST(StepControl, DepthGrowsByTheApproach)
+{
+  EXPECT_DOUBLE_EQ(depth_after(0.2, 0.5, 2.0), 0.45);
+  EXPECT_DOUBLE_EQ(depth_after(-1.0, 0.5, 2.0), 0.25);    // apart now: not known how far
+  EXPECT_EQ(depth_after(INFINITY, 0.5, 2.0), INFINITY);
+}
+
+TEST(StepControl, PredictedStepKeepsPairsInSight)
+{
+  EXPECT_EQ(predicted_step(1.0, 0.5, 2.0, 0.0, INFINITY), 1.0);
+  EXPECT_DOUBLE_EQ(predicted_step(1.0, 0.5, 2.0, 4.0, INFINITY), 0.125);    // 0.5 in 1/8 s: half of the limit
+  EXPECT_DOUBLE_EQ(predicted_step(1.0, 0.5, 2.0, 4.0, 0.1), 0.09);
+}
+
+TEST(StepControl, DeepAndClosing)
+{
+  EXPECT_TRUE(deep_and_closing(0.6, 0.1, 1.0));
+  EXPECT_FALSE(deep_and_closing(0.4, 0.1, 1.0));
+  EXPECT_FALSE(deep_and_closing(0.6, -0.1, 1.0));
 }
 
 static StepSize step_of(double most, double floor, int retries)

@@ -41,6 +41,26 @@ inline double stiffness_ratio(double nu)
   return 2.0 * (1.0 - nu) / (2.0 - nu);
 }
 
+// Elastic energy of a linear and of a Hertzian spring; the latter's force is k overlap^(3/2) sqrt(R) with the reduced
+// radius R = R_i R_j/(R_i + R_j).
+inline double linear_energy(double k, double overlap)
+{
+  return 0.5 * k * overlap * overlap;
+}
+inline double hertz_energy(double k, double reduced_radius, double overlap)
+{
+  return 0.4 * k * std::sqrt(reduced_radius * overlap) * overlap * overlap;
+}
+inline double reduced_radius(double r_i, double r_j)
+{
+  return r_i * r_j / (r_i + r_j);
+}
+
+inline double reduced_mass(double m_i, double m_j)
+{
+  return m_i * m_j / (m_i + m_j);
+}
+
 class ContactLaw {
  public:
   double k_n = 0.0;    // normal stiffness [force/length]
@@ -65,7 +85,7 @@ class ContactLaw {
   // Eq. (3); positive pushes apart. v_n > 0 when the pair separates.
   double normal(double overlap, double eta, double v_n) const { return k_n * overlap - eta * v_n; }
 
-  double normal_energy(double overlap) const { return 0.5 * k_n * overlap * overlap; }
+  double normal_energy(double overlap) const { return linear_energy(k_n, overlap); }
 
   // Largest tangential displacement without sliding.
   double slip_limit(double overlap) const { return slip_ratio_ * overlap; }

@@ -4,6 +4,7 @@
 #ifndef CLUSTERDEM_STEP_CONTROL_H
 #define CLUSTERDEM_STEP_CONTROL_H
 
+#include "step_energy.h"
 #include "vector3.h"
 
 #include <algorithm>
@@ -35,36 +36,83 @@ inline Passage passage(const Vec3 &from, const Vec3 &w, double time)
   return {when > 0.0 ? norm(from + when * w) : r, r > 0.0 ? toward / r : 0.0};
 }
 
-// Energy that contacts created in a step, relative to the energy there was: the work they did plus the change of
-// what their springs hold. Dissipation makes it negative. The paper tests the kinetic energy alone, which cannot hold
-// where gravity, gas or a spring set free speed clusters up.
-inline double relative_creation(double created, double energy)
+// Two spheres as a step sees them: d = x_i - x_j at its end, w = v_i - v_j its straight way's velocity.
+struct Approach {
+  double overlap;    // largest on that way, negative: how far apart
+  double closing;    // speed of approach at its beginning
+  double smaller;    // diameter
+
+  double depth() const { return overlap / smaller; }
+  double time_to(double depth_limit) const { return time_to_overlap(overlap, depth_limit * smaller, closing); }
+};
+inline Approach approach(double radius_i, double radius_j, const Vec3 &d, const Vec3 &w, double time)
 {
-  if (!(created > 0.0)) return 0.0;
-  return energy > 0.0 ? created / energy : INFINITY;
+  const Passage way = passage(d - time * w, w, time);
+  return {radius_i + radius_j - way.closest, way.closing, 2.0 * std::min(radius_i, radius_j)};
 }
 
-// What contacts may create in a step, in sums over them. swing: k_n/m_eff times relative kinetic and elastic energy;
-// velocity Verlet creates of the order of (omega dt)^2 of the energy of a contact with frequency omega. creep: tangential
-// energy times speed over overlap; at constant displacement the tangential spring of Eq. (4) stiffens by up to a quarter as
-// the normal load grows.
-struct Restlessness {
-  double swing = 0.0, creep = 0.0;
-  double strongest = 0.0;    // largest force of a contact over the lighter mass
+// What bounds the motion of all clusters. All velocities and forces are looked at now and then; in between what pushes them
+// is known, and other forces are taken to grow no more than by OTHER_FORCES.
+class MotionBounds {
+ public:
+  static constexpr double OTHER_FORCES = 2.0;    // how much they may grow between looks
+  static constexpr double MARGIN = 1.01;         // and what they may do where there were none
+
+  // range: of velocities, as the diagonal of the box that they fill; none is larger than `fastest`
+  void looked(double range, double fastest, double acceleration)
+  {
+    closing_ = range_ = range;
+    speed_ = fastest_ = fastest;
+    acceleration_ = acceleration_at_look_ = acceleration;
+    gain_ = 0.0;
+  }
+
+  // a step of dt has ended since, and no cluster is accelerated by more now
+  void pushed(double acceleration, double dt)
+  {
+    gain_ += 0.5 * (acceleration_ + acceleration) * dt;
+    acceleration_ = acceleration;
+    closing_ = MARGIN * range_ + 2.0 * gain_;
+    speed_ = MARGIN * fastest_ + gain_;
+  }
+
+  // acceleration by contacts whose strongest is known, and by the other forces of the last look
+  double with_contacts(double strongest) const
+  {
+    return OTHER_FORCES * acceleration_at_look_ + MOST_CONTACTS * strongest;
+  }
+
+  double closing() const { return closing_; }    // no two clusters approach each other faster now
+  double closing_within(double dt) const { return closing_ + dt * acceleration_; }
+  double approach_within(double dt) const { return closing_within(dt) * dt; }
+  double way_within(double dt) const { return (speed_ + dt * acceleration_) * dt; }
+  double way_without_force(double dt) const { return speed_ * dt; }
+
+ private:
+  double closing_ = 0.0, speed_ = 0.0, acceleration_ = 0.0;
+  double range_ = 0.0, fastest_ = 0.0, gain_ = 0.0, acceleration_at_look_ = 0.0;
 };
 
-// No cluster is accelerated by contacts by more than this many times `strongest`: twelve equal spheres touch one, and
-// the more numerous smaller ones around a larger one are the lighter for it.
-inline constexpr double MOST_CONTACTS = 12.0;
-
-// Their sum, with a margin, and for ten contacts that begin at approach c: (omega dt)^4/8 of m c^2 each (exact for the
-// linear spring). Where this is too much a step is prepared to be taken back.
-inline double possible_creation(double dt, const Restlessness &now, double k_n, double lightest, double heaviest,
-                                double c)
+// Bound on the depth of any overlap, when any two clusters have come nearer to each other by `way`. Depths are overlaps as
+// shares of the smaller diameter.
+inline double depth_after(double bound, double way, double smallest_diameter)
 {
-  const double swing = k_n * dt * dt / (0.5 * lightest);    // (omega dt)^2 at most
-  return 4.0 * (dt * dt * now.swing + 0.25 * dt * now.creep) +
-      10.0 * 0.125 * swing * swing * 0.5 * heaviest * c * c;
+  return std::max(0.0, bound) + way / smallest_diameter;
+}
+
+// A step in which no two clusters can pass each other unseen, and which ends at 0.9 of the time in which the first pair
+// would reach the limit.
+inline double predicted_step(double dt, double depth_limit, double smallest_diameter, double closing,
+                             double soonest)
+{
+  if (closing > 0.0) dt = std::min(dt, 0.5 * depth_limit * smallest_diameter / closing);
+  return std::min(dt, 0.9 * soonest);
+}
+
+// Where the law is not known: a pair that is deep in contact, and still comes nearer, will not be stopped.
+inline bool deep_and_closing(double overlap, double closing, double most)
+{
+  return overlap > 0.5 * most && closing > 0.0;
 }
 
 class StepSize {

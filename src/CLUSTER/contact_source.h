@@ -2,25 +2,24 @@
    Cluster DEM for LAMMPS. Distributed under the GNU General Public License, version 2 or later.
 ------------------------------------------------------------------------- */
 
-// The granular pair style, or the granular sub-styles of a hybrid one: which clusters touch, and the
-// contact force between two of them. Pair gran/cluster notes its contacts while it computes; of any other
-// style the neighbor list is walked again and single() is asked.
+// Which clusters touch, and what their contacts do: of the granular pair style, or of the granular sub-styles of a
+// hybrid one. contact_source.cpp holds what all engines share; what differs is in contact_source_lammps.cpp and
+// src/LIGGGHTS/contact_source_liggghts.cpp.
 
-#ifndef LMP_GRANULAR_PAIRS_H
-#define LMP_GRANULAR_PAIRS_H
+#ifndef LMP_CONTACT_SOURCE_H
+#define LMP_CONTACT_SOURCE_H
 
 #include "pointers.h"
 
 #include "model/vector3.h"
 
-#include <cmath>
 #include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
 class Pair;
 
-class GranularPairs : protected Pointers {
+class ContactSource : protected Pointers {
  public:
   struct Load {
     double power;    // F_ij . (V_i - V_j), the same for both
@@ -33,7 +32,7 @@ class GranularPairs : protected Pointers {
     Load noted_load;
   };
 
-  GranularPairs(class LAMMPS *lmp) : Pointers(lmp) {}
+  ContactSource(class LAMMPS *lmp) : Pointers(lmp) {}
 
   // find the pair styles; stops with an error that names the fix if there is none, or if a pair of
   // clusters of the largest diameter could be missed
@@ -42,49 +41,39 @@ class GranularPairs : protected Pointers {
   // the same for the pairs of types that there are now
   void check_cutoff(const std::string &fix, int groupbit, double largest_diameter) const;
 
+  const std::vector<Pair *> &pair_styles() const { return pairs; }
+
   // contacts() will be asked for at that step, before its forces: pair gran/cluster then notes those of the
   // step before while it computes
   void expect_contacts(bigint step);
 
   // collect all pairs of the half neighbor lists in contact: as noted at the last evaluation of forces, else those
-  // that overlap now
+  // that overlap now or are held together by a cohesive law beyond touching
   void find_contacts();
   const std::vector<Contact> &contacts() const { return touching; }
 
   // at the instant of find_contacts()
   Load load(const Contact &) const;
 
-  // Two clusters that meet.
-  struct Meeting {
-    double tags[2];
-    double overlap, smaller;    // smaller: diameter
-    double closing, mass;       // speed of approach, reduced mass
-  };
-
-  // How deep pairs overlap, as a share of the smaller diameter, and when the first would reach `limit` at its present
-  // speed of approach; over all ranks. With drift > 0, over the straight way of that time that led here: two equal
-  // clusters that went through each other overlap no more than before. Pairs further apart than `near` are left out.
-  struct Survey {
-    double deepest = -INFINITY, soonest = INFINITY;
-    struct Mine {
-      double value;
-      int i = -1, j = -1;
-      double overlap = 0.0, closing = 0.0;
-    } my_deepest{-INFINITY}, my_soonest{INFINITY};
-  };
-  Survey survey(double limit, double near, double drift = 0.0) const;
-
-  // the pair behind an extreme of a survey, told to all ranks
-  Meeting meeting(const Survey::Mine &, double extreme) const;
-
   // elastic normal force over overlap at this instant, damping left out
   double stiffness(const Contact &) const;
+
+  // Energy [force x length] that the normal force of clusters i and j would hold at this distance of their centres if i had
+  // that radius, damping left out: 0 where they do not touch, unless a cohesive law holds them together now. The work
+  // against the force on the way from where it lets go; the law is that of the pair style, all sub-styles together. Changes
+  // nothing.
+  double energy(int i, int j, double radius_i, double distance) const;
+
+  // Energy [force x length] that a contact holds at this instant: normal, and of the tangential spring if the style has one.
+  double energy_now(const Contact &) const;
 
  private:
   std::vector<Pair *> pairs;
   std::vector<Contact> touching;
 
-  void walk(Pair *);
+  bool take_noted(Pair *);    // false if this pair style has not noted its contacts
+  bool can_bond(const Pair *) const;
+  bool bonded(const Pair *, int i, int j, int slot, double rsq) const;
   ClusterDEM::Vec3 contact_force(const Contact &) const;
 };
 
