@@ -13,7 +13,12 @@ lammps_options=(
   -DWITH_JPEG=off -DWITH_PNG=off -DWITH_FFMPEG=off -DWITH_GZIP=off -DDOWNLOAD_POTENTIALS=off
 )
 
-# use_lammps pinned|newest|portable: for this machine's processor, or (portable, for packages) for any of its kind
+# How an engine that watches its own memory is compiled, and the plugin with it. Findings can be suppressed by name
+# (tests/sanitizers.supp), which -fno-sanitize-recover would not heed: UBSAN_OPTIONS tells to stop at the others.
+export CLUSTERDEM_SANITIZERS="-fsanitize=address,undefined,float-cast-overflow -fno-omit-frame-pointer -D_GLIBCXX_ASSERTIONS"
+
+# use_lammps pinned|newest|portable|sanitized: for this machine's processor, or (portable, for packages) for any of
+# its kind, or (sanitized) watched by the address and undefined-behaviour sanitizers
 use_lammps() {
   if [[ ${LAMMPS_SOURCE_DIR:-}${LAMMPS_EXE:-} ]]; then
     check_own_lammps
@@ -23,6 +28,7 @@ use_lammps() {
   case $1 in
     newest) suite=sid tarball=$(newest_tarball) ;;
     portable) options=("${options[@]/-march=native /}") ;;
+    sanitized) options=("${options[@]/-O3 -march=native -DNDEBUG/-O1 -g1 $CLUSTERDEM_SANITIZERS}") ;;
   esac
   # Whatever changes the executable is in the key: version, options, compiler, what `native` is, MPI.
   home=$cache/lammps/${tarball%.orig*}-$({

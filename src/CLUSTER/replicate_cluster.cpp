@@ -88,7 +88,10 @@ void ReplicateCluster::copy_mine(const int *copies, tagint highest)
     domain->remap(atom->x[i], atom->image[i]);
     atom->image[i] = home;
   }
+  // ghosts go, and the map of IDs with them while it still is that of these clusters: new ones lie beyond its end
+  if (atom->map_style != Atom::MAP_NONE) atom->map_clear();
   atom->nghost = 0;
+  atom->avec->clear_bonus();
   atom->avec->grow(originals * copies[0] * copies[1] * copies[2]);    // at once, not a slice at a time
   tagint copy = 0;
   for (int k = 0; k < copies[2]; k++)
@@ -117,7 +120,10 @@ void ReplicateCluster::enlarge_box(const int *copies)
   comm->set_proc_grid();
   domain->set_local_box();
   for (int i = 0; i < atom->nlocal; i++) domain->remap(atom->x[i], atom->image[i]);    // rounding at the last edge
-  if (atom->map_style != Atom::MAP_NONE) atom->map_init();                             // room for the new IDs
+  if (atom->map_style != Atom::MAP_NONE) {    // of all copies, as the migration expects it
+    atom->map_init();
+    atom->map_set();
+  }
   Irregular irregular(lmp);
   irregular.migrate_atoms(1);
 }

@@ -14,10 +14,7 @@ def replicated(folder, np_=1, style="sphere", before=""):
     return run(folder, script, np_)
 
 
-@pytest.mark.parametrize("np_, style", [(1, "sphere"), (1, "cluster"), (2, "cluster")])
-def test_every_copy_is_the_box_shifted(tmp_path, np_, style):
-    r = replicated(tmp_path, np_, style, "velocity all set 0.1 0 0.7\n")
-    one, all_ = r.dump("one.dump"), r.dump("all.dump")
+def assert_copies(one, all_):
     count = len(one["id"])
     assert np.array_equal(all_["id"], np.arange(1, 6 * count + 1))
     copy = 0
@@ -30,6 +27,43 @@ def test_every_copy_is_the_box_shifted(tmp_path, np_, style):
             for name in ("y", "vx", "vz", "diameter", "mass"):
                 assert np.array_equal(these[name], one[name])
             copy += 1
+
+
+@pytest.mark.parametrize("np_, style", [(1, "sphere"), (1, "cluster"), (2, "cluster")])
+def test_every_copy_is_the_box_shifted(tmp_path, np_, style):
+    r = replicated(tmp_path, np_, style, "velocity all set 0.1 0 0.7\n")
+    assert_copies(r.dump("one.dump"), r.dump("all.dump"))
+
+
+# More than the 1000 that the engine's map of IDs has to spare.
+MANY = "create_atoms 1 random 1500 5 NULL\nset group all diameter 4e-4\nset group all density 1000\n"
+NO_HISTORY = "pair_style gran/cluster 10.0 0.3 0.0 tangential none cutoff 1.5876e-3\npair_coeff * *\n"
+STARTS = {
+    "created": MANY,
+    "read": MANY + "write_data start.data\nclear\n{settings}read_data start.data\n",
+    "after a run": MANY + NO_HISTORY + "run 0\n",
+}
+
+
+@pytest.mark.parametrize("np_, style", [(1, "sphere"), (1, "cluster"), (2, "sphere"), (2, "cluster")])
+@pytest.mark.parametrize("map_", ["hash", "array", "yes"])
+@pytest.mark.parametrize("start", STARTS)
+def test_more_copies_than_the_map_of_ids_had_room_for(tmp_path, start, map_, np_, style):
+    box = head().replace("atom_style   sphere", f"atom_style {style}").replace("map hash", f"map {map_}")
+    settings = box[: box.index("region ")]
+    script = (
+        box
+        + STARTS[start].format(settings=settings)
+        + write(name="one.dump")
+        + f"replicate/cluster {COPIES[0]} 1 {COPIES[1]}\n"
+        + write(name="all.dump")
+        + NO_HISTORY
+        + "fix move all nve\nrun 1\n"
+    )
+    r = run(tmp_path, script, np_)
+    one = r.dump("one.dump")
+    assert len(one["id"]) == 1500
+    assert_copies(one, r.dump("all.dump"))
 
 
 @pytest.mark.parametrize(

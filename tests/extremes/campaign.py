@@ -2,6 +2,7 @@
 
 ./run extremes                     every scene, then kills and cut restart files; writes tests/extremes/README.md
 ./run extremes gas "all merge:3"   one family, one scene
+./run extremes --each 8            the first 8 scenes of every family, nothing written
 """
 
 from __future__ import annotations
@@ -27,14 +28,15 @@ KILLS = 4  # of each chain; two settings, np 1 and 2, two chains of each
 CUTS = 40  # of each restart file
 
 
-def scenes(words: list[str], seed: int, keep: Path) -> dict[str, list[Outcome]]:
+def scenes(words: list[str], seed: int, keep: Path, each: int | None, patience: float) -> dict[str, list[Outcome]]:
     seen: dict[str, list[Outcome]] = {}
     for word in words:
         name, _, index = word.partition(":")
         family = FAMILIES[name]
-        for k in [int(index)] if index else range(family.count):
+        for k in [int(index)] if index else range(family.count)[:each]:
             began = time.monotonic()
             scene = family.scene(k, seed)
+            scene.time_limit *= patience
             outcome = ran(scene, keep / name.replace(" ", "_").replace("/", "_") / str(k))
             outcome.seconds = time.monotonic() - began
             seen.setdefault(name, []).append(outcome)
@@ -123,6 +125,8 @@ def main() -> int:
     parser.add_argument("what", nargs="*", help="FAMILY or FAMILY:NUMBER (default: everything)")
     parser.add_argument("--seed", type=int, default=SEED)
     parser.add_argument("--keep", type=Path, help="folder that keeps inputs and outputs")
+    parser.add_argument("--each", type=int, metavar="N", help="the first N scenes of each family alone")
+    parser.add_argument("--patience", type=float, default=1.0, help="times a scene's limit of time, for a slow engine")
     given = parser.parse_args()
     for word in given.what:
         if word.partition(":")[0] not in FAMILIES:
@@ -132,9 +136,9 @@ def main() -> int:
     print(f"seed {given.seed}, {built}", flush=True)
     with tempfile.TemporaryDirectory() as scratch:
         keep = given.keep or Path(scratch)
-        seen = scenes(given.what or list(FAMILIES), given.seed, keep)
+        seen = scenes(given.what or list(FAMILIES), given.seed, keep, given.each, given.patience)
         failed = sum(o.kind == "failed" for outcomes in seen.values() for o in outcomes)
-        if not given.what:
+        if not given.what and given.each is None:
             (killed, bad_kills), (cut, bad_cuts) = kills(keep, given.seed), cuts(keep, given.seed)
             failed += bad_kills + bad_cuts
             text = readme(seen, given.seed, (killed, cut), built, (time.monotonic() - began) / 60.0)

@@ -55,6 +55,8 @@ def ran(scene: Scene, folder: Path) -> Outcome:
         result = run(folder, scene.script(), scene.np_, check=False, timeout=scene.time_limit)
     except subprocess.TimeoutExpired:
         return Outcome("failed", f"not finished after {scene.time_limit} s")
+    except AssertionError as finding:  # of a sanitizer (./run sanitize), whatever the scene expects
+        return Outcome("failed", str(finding))
     (folder / "output.txt").write_text(result.output)
     if result.code == 0:
         frames = frames_of(result)

@@ -4,6 +4,8 @@ import os
 import signal
 import time
 
+import pytest
+
 # In place of the real archive and the real compilation: a tarball of two files and a slow `cmake`
 # that counts its calls. It leaves the log of its calls where the test can read it.
 FAKES = """
@@ -79,17 +81,21 @@ def test_key_tells_builds_apart(machine):
     assert len(keys) == 4
 
 
-def test_portable_engine_is_another_build_without_native_code(machine):
+@pytest.mark.parametrize(
+    "flavour, holds", [("portable", "-O3 -DNDEBUG"), ("sanitized", "-fsanitize=address,undefined")]
+)
+def test_other_engines_are_other_builds_without_native_code(machine, flavour, holds):
     (machine.folder / "fast").touch()
-    body = FAKES.replace(
+    body = FAKES.replace("cmake() { :; }", 'cmake() { echo "$*" >>options; }').replace(
         "use_lammps pinned",
-        "use_lammps pinned; use_lammps portable".replace(
-            "; ", "\necho $LAMMPS_EXE\nunset LAMMPS_SOURCE_DIR LAMMPS_EXE\n"
-        ),
+        f"use_lammps pinned\necho $LAMMPS_EXE\nunset LAMMPS_SOURCE_DIR LAMMPS_EXE\nuse_lammps {flavour}\n",
     )
     body += "echo $LAMMPS_EXE\n"
-    native, portable = machine.bash(body).communicate(timeout=60)[0].splitlines()[-2:]
-    assert native != portable
+    said = [line for line in machine.bash(body).communicate(timeout=60)[0].splitlines() if line.endswith("/lmp")]
+    assert len(said) == len(set(said)) == 2
+    pinned, other = (machine.folder / "options").read_text().splitlines()
+    assert "-march=native" in pinned and "-fsanitize" not in pinned
+    assert "-march=native" not in other and holds in other
 
 
 def archives(machine, files):
