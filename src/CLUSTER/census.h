@@ -41,6 +41,7 @@ class Census {
     LEFT,
     CLUSTERS_FED,
     CLUSTERS_LEFT,
+    E_CONTACTS,
     NTOTALS
   };
   using Totals = std::array<double, NTOTALS>;

@@ -21,6 +21,7 @@ struct ClusterColumns {
   ClusterTable::Values<int> *count;        // primary particles; 0: not yet known
   ClusterTable::Shown *shown;
   ClusterTable::Lists<tagint> *partners;    // in contact at the last test (test end only)
+  ClusterTable::Values<int> *postponed;      // wanted to break at the last check, found no room (not with test always)
 
   ClusterDEM::PowerParts power(int i) const
   {
@@ -37,6 +38,7 @@ struct ClusterColumns {
     (*shown)[i][N] = n;
     (*shown)[i][D] = diameter;
     if (partners) (*partners)[i].clear();
+    if (postponed) (*postponed)[i] = 0;
   }
 };
 

@@ -18,6 +18,7 @@
 #include "fix.h"
 #include "modify.h"
 #include "pointers.h"
+#include "sorted_dumps.h"
 #include "utils.h"
 
 #include <string>

@@ -21,10 +21,10 @@ struct Event {
   ClusterDEM::Body body = {};    // parent, or both combined
   ClusterDEM::Vec3 omega = {};    // of the merged cluster
   ClusterDEM::Placement placement;
-  double stiffness = 0.0;      // of the merging contact
-  double reach = 0.0;          // how far to look for others
+  double reach = 0.0;          // the room that it may take: a radius around the body
   double energy_lost = 0.0;    // kinetic energy that the merge takes out
   double energy_born = 0.0;    // elastic energy that the merged cluster puts in
+  double energy_after = 0.0;   // that its contacts hold
 
   bool merges() const { return j >= 0; }
   bool breaks() const { return plan.is_event(); }

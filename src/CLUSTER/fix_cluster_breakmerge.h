@@ -17,17 +17,10 @@ FixStyle(cluster/breakmerge,FixClusterBreakMerge);
 #include "breakmerge_settings.h"
 #include "census.h"
 #include "cluster_columns.h"
-#include "cluster_walls.h"
 #include "contact_source.h"
-#include "contact_sums.h"
 #include "event_apply.h"
-#include "event_plan.h"
+#include "event_check.h"
 #include "newborn_tags.h"
-#include "size_check.h"
-
-#include <memory>
-#include <utility>
-#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -63,31 +56,16 @@ class FixClusterBreakMerge : public ClusterFix, public ClusterDEM::KnowsClusterK
  private:
   ClusterColumns columns;
   ContactSource pairs;
-  ContactSums contacts;
-  SizeCheck sizes;
-  ClusterWalls walls;
   Census census;
   NewbornTags tags;
   Arrivals arrivals;
   EventApply apply;
-  std::unique_ptr<ClusterDEM::Lattices> lattices;
-
-  // of the check at this step
-  std::vector<Event> events;    // that are to be carried out
-  std::vector<int> dying;       // owned clusters that vanish in merges
+  EventCheck check;
   double output[5 + Census::NTOTALS];
   bigint output_step;
 
   void check_scene() const;
-  void make_lattices();
   void measure();
-  void note_forces();
-  bool tested(int i);
-  std::vector<std::pair<int, ClusterDEM::BreakPlan>> breakups();
-  Crowd crowd();
-  std::vector<Touch> touches() const;
-  void plan_events();
-  void note_events();
 
   void leaving(int i) override;
   void arrived(int i) override;

@@ -54,7 +54,7 @@ double FixClusterBreakMerge::compute_vector(int n)
 
 double FixClusterBreakMerge::memory_usage()
 {
-  return table.bytes() + (sizes.cells() ? sizes.cells()->memory_usage() : 0.0);
+  return table.bytes() + (check.cells() ? check.cells()->memory_usage() : 0.0);
 }
 
 /* ----------------------------------------------------------------------
@@ -103,25 +103,25 @@ bool FixClusterBreakMerge::unpack_earlier(int i, const double *from, int n)
 
 void FixClusterBreakMerge::reset_grid()
 {
-  if (sizes.cells()) sizes.cells()->reset();
+  if (check.cells()) check.cells()->reset();
 }
 
 void FixClusterBreakMerge::pack_forward_grid(int, void *buf, int nlist, int *list)
 {
-  sizes.cells()->pack((double *) buf, nlist, list);
+  check.cells()->pack((double *) buf, nlist, list);
 }
 
 void FixClusterBreakMerge::unpack_forward_grid(int, void *buf, int nlist, int *list)
 {
-  sizes.cells()->unpack((double *) buf, nlist, list, false);
+  check.cells()->unpack((double *) buf, nlist, list, false);
 }
 
 void FixClusterBreakMerge::pack_reverse_grid(int, void *buf, int nlist, int *list)
 {
-  sizes.cells()->pack((double *) buf, nlist, list);
+  check.cells()->pack((double *) buf, nlist, list);
 }
 
 void FixClusterBreakMerge::unpack_reverse_grid(int, void *buf, int nlist, int *list)
 {
-  sizes.cells()->unpack((double *) buf, nlist, list, true);
+  check.cells()->unpack((double *) buf, nlist, list, true);
 }

@@ -11,41 +11,63 @@ using namespace ClusterDEM;
 
 /* ---------------------------------------------------------------------- */
 
-bool MergePartners::may_merge(int i, int j) const
+bool MergePartners::may_merge(int i, int j, double slip) const
 {
   if (crowd.kind[i] < 0 || crowd.kind[i] != crowd.kind[j] || crowd.id[i] == crowd.id[j]) return false;
-  if (!(relative_slip(to_vec3(crowd.v[i]), to_vec3(crowd.v[j])) < rules.merge_tolerance)) return false;
-  const int n_l = std::min(crowd.stable[i], crowd.stable[j]);
-  if (fits_together(crowd.count[i], crowd.count[j], n_l)) return true;
-  return rules.break_refused && plan_breakup(crowd.count[i] + crowd.count[j], n_l, rules.fewest()).is_event();
+  if (crowd.size[i].taken || crowd.size[j].taken || !(slip < rules.merge_tolerance)) return false;
+  const int n_l = std::min(crowd.size[i].stable, crowd.size[j].stable);
+  if (fits_together(crowd.size[i].count, crowd.size[j].count, n_l)) return true;
+  return rules.break_refused &&
+      plan_breakup(crowd.size[i].count + crowd.size[j].count, n_l, rules.fewest()).is_event();
 }
 
 /* ---------------------------------------------------------------------- */
 
-void MergePartners::choose(const std::vector<Touch> &touches, const Stiffness &stiffness_of,
-                           const std::vector<char> &taken)
+void MergePartners::choose(const std::vector<Touch> &touches)
 {
+  std::vector<Courtship> possible;
+  for (const Touch &touch : touches) {
+    const double slip = relative_slip(to_vec3(crowd.v[touch.i]), to_vec3(crowd.v[touch.j]));
+    if (may_merge(touch.i, touch.j, slip)) possible.push_back({touch, slip});
+  }
+  chosen.assign(crowd.nall, 0);
+  if (!halo.anywhere(!possible.empty())) return;
+  while (halo.anywhere(one_round(possible))) halo.forward(chosen);
+}
+
+/* ----------------------------------------------------------------------
+   true if somebody here has chosen in vain
+------------------------------------------------------------------------- */
+
+bool MergePartners::one_round(const std::vector<Courtship> &possible)
+{
+  rounds_++;
   suitors.assign(crowd.nall, Suitor());
   auto court = [&](int i, const Suitor &suitor) {
     if (suitor.better_than(suitors[i])) suitors[i] = suitor;
   };
-  for (std::size_t k = 0; k < touches.size(); k++) {
-    const int i = touches[k].i, j = touches[k].j;
-    if (taken[i] || taken[j] || !may_merge(i, j)) continue;
-    const double slip = relative_slip(to_vec3(crowd.v[i]), to_vec3(crowd.v[j]));
-    const double stiffness = stiffness_of(k);
-    court(i, {slip, stiffness, crowd.id[j]});
-    if (!touches[k].listed_twice) court(j, {slip, stiffness, crowd.id[i]});
+  for (const Courtship &c : possible) {
+    const int i = c.touch.i, j = c.touch.j;
+    if (chosen[i] || chosen[j]) continue;
+    court(i, {c.slip, crowd.id[j]});
+    if (!c.touch.listed_twice) court(j, {c.slip, crowd.id[i]});
   }
   halo.reverse(suitors, [](Suitor &mine, const Suitor &theirs) {
     if (theirs.id && theirs.better_than(mine)) mine = theirs;
   });
   halo.forward(suitors);
+
+  bool in_vain = false;
+  for (int i = 0; i < crowd.nlocal; i++) {
+    if (suitors[i].id == 0) continue;
+    const int j = crowd.nearest_image(i, suitors[i].id);
+    if (j >= 0 && suitors[j].id == crowd.id[i]) chosen[i] = suitors[i].id;
+    else in_vain = true;
+  }
+  return in_vain;
 }
 
 int MergePartners::partner(int i) const
 {
-  if (suitors[i].id == 0) return -1;
-  const int j = crowd.nearest_image(i, suitors[i].id);
-  return j >= 0 && suitors[j].id == crowd.id[i] ? j : -1;
+  return chosen[i] ? crowd.nearest_image(i, chosen[i]) : -1;
 }

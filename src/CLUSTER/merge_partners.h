@@ -3,7 +3,9 @@
 ------------------------------------------------------------------------- */
 
 // Who merges with whom: of its contacts that move like it and fit together with it, each cluster chooses the one that moves
-// most alike, of equal ones the lowest ID. A pair merges if each is the choice of the other; the lower ID leads.
+// most alike, of equal ones the lowest ID. A pair merges if each is the choice of the other; the lower ID leads. Those who
+// were not chosen choose again among the others, until nobody is left: the pairs are those that one gets by going through
+// all contacts in the order of their slip.
 
 #ifndef LMP_MERGE_PARTNERS_H
 #define LMP_MERGE_PARTNERS_H
@@ -12,23 +14,17 @@
 #include "halo.h"
 #include "plan_rules.h"
 
-#include <functional>
 #include <vector>
 
 namespace LAMMPS_NS {
 
 class MergePartners {
  public:
-  MergePartners(const Crowd &c, const PlanRules &r, Halo &h) : crowd(c), rules(r), halo(h) {}
+  MergePartners(const Crowd &c, const PlanRules &r, Halo &h) : crowd(c), rules(r), halo(h), rounds_(0) {}
 
-  using Stiffness = std::function<double(std::size_t)>;    // of the contact of this number
-
-  // Collective. `taken`: clusters that are part of another event, owned and ghosts.
-  void choose(const std::vector<Touch> &, const Stiffness &, const std::vector<char> &taken);
-
-  // the partner of an owned cluster, owned or ghost; -1: none
-  int partner(int i) const;
-  double stiffness(int i) const { return suitors[i].stiffness; }    // of the contact between them
+  void choose(const std::vector<Touch> &);    // collective
+  int partner(int i) const;                   // of an owned cluster, owned or ghost; -1: none
+  int rounds() const { return rounds_; }
 
  private:
   const Crowd &crowd;
@@ -36,16 +32,22 @@ class MergePartners {
   Halo &halo;
   struct Suitor {
     double slip = 0.0;    // |dV| / min |V|
-    double stiffness = 0.0;
-    ClusterID id = 0;    // 0: none
+    ClusterID id = 0;     // 0: none
     bool better_than(const Suitor &other) const
     {
       return other.id == 0 || slip < other.slip || (slip == other.slip && id < other.id);
     }
   };
+  struct Courtship {
+    Touch touch;
+    double slip;
+  };
   std::vector<Suitor> suitors;
+  std::vector<ClusterID> chosen;    // partners agreed on; 0: none
+  int rounds_;
 
-  bool may_merge(int i, int j) const;
+  bool may_merge(int i, int j, double slip) const;
+  bool one_round(const std::vector<Courtship> &);
 };
 
 }    // namespace LAMMPS_NS

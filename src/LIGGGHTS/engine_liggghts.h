@@ -217,6 +217,9 @@ inline std::vector<Fix *> fixes_that_remember_contacts(LAMMPS *lmp)
   return found;
 }
 
+// LIGGGHTS sorts dumps without a shortcut (LAMMPS: src/CLUSTER/sorted_dumps.h)
+inline void sort_dumps_in_earnest(LAMMPS *) {}
+
 inline void set_density(Atom *atom, int i, double density)
 {
   atom->density[i] = density;

@@ -142,11 +142,19 @@ TEST(EnergyLost, EqualsTheKineticDifference)
   }
 }
 
-TEST(OverlapEnergy, ByHand)
+TEST(BirthEnergy, WhatIsLessIsNotCredited)
 {
-  EXPECT_DOUBLE_EQ(overlap_energy(10.0, 1.0e-4), 5.0e-8);    // 1/2 10 N/m (100 um)^2
-  EXPECT_EQ(overlap_energy(10.0, 0.0), 0.0);
-  EXPECT_EQ(overlap_energy(10.0, -1.0e-4), 0.0);    // apart
+  EXPECT_DOUBLE_EQ(birth_energy(5.0, 3.0), 2.0);
+  EXPECT_EQ(birth_energy(3.0, 5.0), 0.0);
+  EXPECT_DOUBLE_EQ(birth_energy(2.0, -1.0), 3.0);    // cohesion held energy back
+}
+
+TEST(BirthEnergy, AMillionthOfTheKineticEnergyIsNegligible)
+{
+  const Body body{4.0, {}, {0.0, 3.0, 4.0}};    // 50
+  EXPECT_TRUE(negligible_birth(49.9e-6, body));
+  EXPECT_FALSE(negligible_birth(50.1e-6, body));
+  EXPECT_TRUE(negligible_birth(0.0, {4.0, {}, {}}));    // at rest nothing may be put in, and nothing is
 }
 
 TEST(MergedSpin, KeepsTheSpinAndAddsNoEnergy)

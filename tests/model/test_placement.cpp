@@ -1,4 +1,4 @@
-// Where fragments go: lattices, turns, free room, stages, and who yields to whom.
+// Where fragments go: lattices, turns, free room, stages.
 
 #include "model_testing.h"
 
@@ -464,78 +464,4 @@ TEST(PlaceInStages, NothingToBreak)
         << n_l;
     EXPECT_FALSE(plan.is_event()) << n_l;
   }
-}
-
-// ---- arbitration ----
-
-TEST(YieldsTo, OfTwoThatOverlapExactlyTheHigherTagYields)
-{
-  const Claim low{{0.0, 0.0, 0.0}, 1.0, 4}, high{{1.9, 0.0, 0.0}, 1.0, 9};
-  EXPECT_FALSE(yields_to(low, high));
-  EXPECT_TRUE(yields_to(high, low));
-}
-
-TEST(YieldsTo, NoneYieldsApart)
-{
-  const Claim a{{0.0, 0.0, 0.0}, 1.0, 4}, touching{{2.0, 0.0, 0.0}, 1.0, 9}, away{{0.0, 0.0, -5.0}, 1.0, 1};
-  EXPECT_FALSE(yields_to(a, touching));
-  EXPECT_FALSE(yields_to(touching, a));
-  EXPECT_FALSE(yields_to(a, away));
-  EXPECT_FALSE(yields_to(away, a));
-}
-
-TEST(YieldsTo, NotToItself)
-{
-  const Claim a{{0.0, 0.0, 0.0}, 1.0, 4};
-  EXPECT_FALSE(yields_to(a, a));
-}
-
-TEST(YieldsTo, NoChains)
-{
-  // 1 - 2 - 3 in a row: 2 yields to 1, and 3 yields to 2 although 2 does not proceed
-  const Claim row[] = {{{0.0, 0.0, 0.0}, 1.0, 1}, {{1.5, 0.0, 0.0}, 1.0, 2}, {{3.0, 0.0, 0.0}, 1.0, 3}};
-  EXPECT_TRUE(yields_to(row[1], row[0]));
-  EXPECT_TRUE(yields_to(row[2], row[1]));
-  EXPECT_FALSE(yields_to(row[2], row[0]));
-}
-
-TEST(YieldsTo, ThoseThatProceedNeverOverlap)
-{
-  RandomInputs random(64);
-  long overlapping = 0, proceeding = 0, yielding = 0;
-  for (int trial = 0; trial < 300; trial++) {
-    const int n = 60;
-    std::vector<std::int64_t> tags(n);
-    std::iota(tags.begin(), tags.end(), random.coin() ? 1 : 1LL << 40);
-    for (int k = n - 1; k > 0; k--) std::swap(tags[k], tags[random.integer(0, k)]);
-    std::vector<Claim> claims;
-    for (int k = 0; k < n; k++)
-      claims.push_back(
-          {{random.uniform(0.0, 10.0), 0.0, random.uniform(0.0, 10.0)}, random.log_uniform(0.05, 1.0), tags[k]});
-
-    std::vector<bool> proceeds(n, true);
-    for (int i = 0; i < n; i++)
-      for (int j = 0; j < n; j++) {
-        const bool yields = yields_to(claims[i], claims[j]);
-        if (yields) proceeds[i] = false;
-        if (j >= i) continue;
-        const bool overlap = norm(claims[i].centre - claims[j].centre) < claims[i].radius + claims[j].radius;
-        // exactly one of two that overlap yields, none of two that do not
-        ASSERT_EQ(yields + yields_to(claims[j], claims[i]), overlap ? 1 : 0);
-        overlapping += overlap;
-      }
-    std::int64_t lowest = claims[0].tag;
-    for (const Claim &c : claims) lowest = std::min(lowest, c.tag);
-    for (int i = 0; i < n; i++) {
-      if (claims[i].tag == lowest) { ASSERT_TRUE(proceeds[i]); }    // something always happens
-      (proceeds[i] ? proceeding : yielding)++;
-      for (int j = 0; j < i && proceeds[i]; j++)
-        if (proceeds[j]) {
-          ASSERT_GE(norm(claims[i].centre - claims[j].centre), claims[i].radius + claims[j].radius);
-        }
-    }
-  }
-  EXPECT_GT(overlapping, 1000);
-  EXPECT_GT(proceeding, 1000);
-  EXPECT_GT(yielding, 1000);
 }

@@ -58,10 +58,18 @@ inline double energy_lost(const Body &i, const Body &j)
   return 0.5 * (i.mass * j.mass / (i.mass + j.mass)) * dv * dv;
 }
 
-// elastic energy of a linear contact of stiffness k at the given overlap (none if apart)
-inline double overlap_energy(double k, double overlap)
+// Energy that a merged cluster puts in where it touches a third one: what their contact holds, beyond what those of its
+// parents with the third one held. What is less is not credited to others.
+inline double birth_energy(double after, double before)
 {
-  return overlap > 0.0 ? 0.5 * k * overlap * overlap : 0.0;
+  return std::max(0.0, after - before);
+}
+
+// a merged cluster may put in this share of its own kinetic energy, or the merge waits
+inline constexpr double BIRTH_TOLERANCE = 1.0e-6;
+inline bool negligible_birth(double energy, const Body &merged)
+{
+  return energy <= BIRTH_TOLERANCE * 0.5 * merged.mass * dot(merged.v, merged.v);
 }
 
 }    // namespace ClusterDEM

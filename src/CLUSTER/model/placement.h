@@ -224,20 +224,5 @@ inline Placement place_in_stages(BreakPlan &plan, int n, int n_l, int lower_limi
   return placement;
 }
 
-// A break claims its room; a candidate proceeds only if its tag is the lowest among all candidates
-// whose room it overlaps, proceeding or not (no chains): pure data, equal on every rank that sees both.
-struct Claim {
-  Vec3 centre;
-  double radius;
-  std::int64_t tag;
-};
-inline bool yields_to(const Claim &mine, const Claim &other)
-{
-  if (other.tag >= mine.tag) return false;
-  const Vec3 d = mine.centre - other.centre;
-  const double reach = mine.radius + other.radius;
-  return dot(d, d) < reach * reach;
-}
-
 }    // namespace ClusterDEM
 #endif
