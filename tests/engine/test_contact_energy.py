@@ -4,7 +4,7 @@ beyond touching are contacts.
 
 import numpy as np
 import pytest
-from lammps_run import CUTOFF, clusters, diameter, head, run
+from lammps_run import CUTOFF, clusters, diameter, head, run, write
 
 R1, R2 = 0.5 * float(diameter(400)), 0.5 * float(diameter(150))
 REDUCED = R1 * R2 / (R1 + R2)
@@ -131,6 +131,29 @@ def test_a_bond_stretched_beyond_touching_is_a_contact(tmp_path, ranks):
     assert "LEFT 1" in bonded.output
     assert energy(apart) == 0.0
     assert "LEFT 2" in apart.output
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_a_stretched_bond_is_in_n_cc(tmp_path, ranks):
+    """The power of its force, of JKR at half of the way to where it ends and without damping, as for any contact."""
+    gamma, speed = 0.02, -0.1
+    end = np.cbrt(3 * np.pi**2 / 16) * np.cbrt(REDUCED * (gamma / STIFF) ** 2)
+    x1, x2 = (float(line.split()[3]) for line in two(-0.5 * end).splitlines() if line.startswith("create_atoms"))
+    contact = granular(f"jkr {E} 0.0 {NU} {gamma} {PLAIN}").replace(str(CUTOFF), "1.7e-3")
+    script = (
+        box(ranks)
+        + two(1e-6)
+        + contact
+        + "fix move all nve\nfix size all cluster/breakmerge 1 1e-4 2000 K 1 terms cc ncc 0.7 break no merge no\nrun 0\n"
+        + f"set atom 1 x {x1!r} vx {speed!r}\nset atom 2 x {x2!r}\nrun 0\n"
+        + write("f_size[5]")
+    )
+    row = run(tmp_path, script, ranks).dump()
+    step = 1e-4 * end
+    force = (jkr(-0.5 * end + step, gamma) - jkr(-0.5 * end - step, gamma)) / (2 * step)
+    assert force < 0
+    assert row["fx"] == pytest.approx([-force, force], rel=1e-5, abs=0)
+    assert row["f_size[5]"] == pytest.approx(0.7 * abs(force * speed) / row["mass"], rel=1e-5, abs=0)
 
 
 SPRING = 85.7
