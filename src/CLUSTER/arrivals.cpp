@@ -33,30 +33,54 @@ Arrivals::Arrivals(LAMMPS *lmp, const ClusterKinds &k, const ClusterColumns &c, 
 
 int Arrivals::particle_count(int i)
 {
-  if ((*columns.count)[i]) return (*columns.count)[i];
+  int &count = (*columns.count)[i];
+  if (count) return count;
+  count = whole_number(i);
+  (*columns.shown)[i][ClusterColumns::N] = count;
+  (*columns.shown)[i][ClusterColumns::D] = kinds.geometry(atom->type[i]).diameter(count);
+  return count;
+}
+
+void Arrivals::check_all() const
+{
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit) whole_number(i);
+}
+
+/* ----------------------------------------------------------------------
+   what a cluster of the nearest whole number would be, against what it is
+------------------------------------------------------------------------- */
+
+int Arrivals::whole_number(int i) const
+{
   const ClusterGeometry &particles = kinds.geometry(atom->type[i]);
   const auto n = particles.count_from_mass(atom->rmass[i]);
+  const double found_d = 2.0 * atom->radius[i];
+  if (n.exact > 1.0e9 || n.exact < 0.5)
+    error->one(FLERR,
+               "{}: cluster {} of mass {:.6g} would be {:.3g} primary particles of d_p = {:.6g} and rho_p = {:.6g}: are d_p "
+               "and rho_p given in this order, and in units {} (length, mass/volume)?",
+               me, atom->tag[i], atom->rmass[i], n.exact, particles.d_p, particles.rho_p, update->unit_style);
   const double d = particles.diameter(n.whole ? n.n : n.exact);
-  const bool right_size = std::fabs(2.0 * atom->radius[i] - d) <= TOLERANCE * d;
+  const bool right_size = std::fabs(found_d - d) <= TOLERANCE * d;
   if (!n.whole || !right_size) {
     const int nearest = std::max(1, static_cast<int>(std::lround(n.exact)));
     const std::string fault = n.whole
-        ? fmt::format("has diameter {:.10g}, which does not fit its {} primary particles", 2.0 * atom->radius[i],
-                      n.n)
+        ? fmt::format("has diameter {:.10g}, which does not fit its {} primary particles", found_d, n.n)
         : fmt::format("has mass {:.10g}, which is {:.2f} primary particles, not a whole number within 1e-6",
                       atom->rmass[i], n.exact);
-    error->one(FLERR, "{}: cluster {} {}: {} particles at voidage {} need diameter {:.10g} and density {:.10g}",
+    error->one(FLERR,
+               "{}: cluster {} {}: {} particles at voidage {} need diameter {:.10g} and density {:.10g}, but it has "
+               "diameter {:.10g} and density {:.10g}, a voidage of {:.4g} for particles of density {:.6g}",
                me, atom->tag[i], fault, nearest, particles.voidage, particles.diameter(nearest),
-               particles.density());
+               particles.density(), found_d, sphere_density(atom->rmass[i], found_d),
+               1.0 - sphere_density(atom->rmass[i], found_d) / particles.rho_p, particles.rho_p);
   }
   if (n.n > kinds.limits.hi)
     error->one(FLERR,
                "{}: cluster {} holds {} primary particles, above the upper limit {}: the pair "
                "cutoff is made for the largest diameter of the limits",
                me, atom->tag[i], n.n, kinds.limits.hi);
-  (*columns.count)[i] = n.n;
-  (*columns.shown)[i][ClusterColumns::N] = n.n;
-  (*columns.shown)[i][ClusterColumns::D] = d;
   return n.n;
 }
 

@@ -28,6 +28,8 @@ class Arrivals : protected EnginePointers {
 
   void init(const std::string &fix) { me = fix; }
 
+  void check_all() const;    // all clusters of this rank, before anything is asked of them
+
   // whole number of particles of an owned cluster; stops if its mass or diameter is not that of a whole number
   int particle_count(int i);
   // mass and diameter are the size fix's to change
@@ -49,6 +51,7 @@ class Arrivals : protected EnginePointers {
   std::string me;
   bool start_counted;    // what is found from now on has come in
 
+  int whole_number(int i) const;
   void number_by_place(const std::vector<int> &mine, Halo &);
 };
 

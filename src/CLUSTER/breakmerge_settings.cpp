@@ -62,12 +62,13 @@ bool BreakMergeSettings::read_size(const std::string &keyword, StyleArguments &a
   } else if (keyword == "nst")
     s.nst = static_cast<NstReading>(args.choice(keyword, {"particle", "cluster", "cell"}));
   else if (keyword == "nsmf") s.nsmf = static_cast<NsmfReading>(args.choice(keyword, {"emms", "paper"}));
-  else if (keyword == "up") s.up = static_cast<UpReading>(args.choice(keyword, {"own", "cell", "superficial"}));
+  else if (keyword == "up") s.up = static_cast<UpReading>(args.choice(keyword, {"own", "cell", "superficial", "vector"}));
   else if (keyword == "ncc") {
     s.ncc_factor = args.number(keyword, "a number >= 0");
     if (s.ncc_factor < 0.0) args.refuse(keyword, "a number >= 0");
   } else if (keyword == "terms") read_terms(args);
   else if (keyword == "gravity") {
+    s.gravity_given = true;
     s.gravity = args.positive("gravity g", "acceleration");
     s.gravity_axis = args.choice("gravity axis", {"x", "y", "z"});
   } else return false;
@@ -94,7 +95,10 @@ bool BreakMergeSettings::read_event(const std::string &keyword, StyleArguments &
   } else if (keyword == "refused") e.break_refused = args.choice(keyword, {"leave", "break"}) == 1;
   else if (keyword == "claim") e.claim = args.positive(keyword, "length");
   else if (keyword == "region") e.region_id = args.word("region ID");
-  else if (keyword == "plane") e.planar = args.choice(keyword, {"xz", "none"}) == 0;
+  else if (keyword == "plane") {
+    e.plane_given = true;
+    e.planar = args.choice(keyword, {"xz", "none"}) == 0;
+  }
   else if (keyword == "spacing") {
     e.spacing = args.number(keyword, "a number >= 1");
     if (!(e.spacing >= 1.0)) args.refuse(keyword, "a number >= 1");
@@ -143,7 +147,7 @@ void BreakMergeSettings::check(StyleArguments &args, bool k_given)
   if ((s.term_mf || s.k_from_emms) && s.umf_from_wen_yu() && s.drag_id.empty())
     args.incomplete("umf wen/yu needs the gas of the keyword drag FIX-ID (or give umf a value)");
   if (s.cell_reading() && !s.cells_given)
-    args.incomplete("the readings nst cell, up cell and up superficial need the keyword grid nx ny nz");
+    args.incomplete("the readings nst cell, up cell, up superficial and up vector need the keyword grid nx ny nz");
   s.cells_given = s.cell_reading();    // no averages that nobody asks for
   if (s.term_mf && s.up == UpReading::SUPERFICIAL)
     for (int k = 1; k < kinds.count(); k++)

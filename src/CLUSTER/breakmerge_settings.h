@@ -31,6 +31,7 @@ struct SizeSettings {
   ClusterDEM::UpReading up = ClusterDEM::UpReading::OWN;
   double ncc_factor = 1.0;
   bool term_st = true, term_cc = true, term_mf = true;
+  bool gravity_given = false;
   double gravity = 9.81;
   int gravity_axis = 2;
 
@@ -52,6 +53,7 @@ struct EventSettings {
   double merge_tolerance = 0.01;
   double claim = 0.0;    // 0: 1.6 times the largest diameter
   bool planar = true;    // fragments are placed in the xz plane
+  bool plane_given = false;
   double spacing = 2.0;
   std::string region_id;    // fragments are placed inside of it
 };

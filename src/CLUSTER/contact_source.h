@@ -55,14 +55,15 @@ class ContactSource : protected Pointers {
   // at the instant of find_contacts()
   Load load(const Contact &) const;
 
-  // elastic normal force over overlap at this instant, damping left out
-  double stiffness(const Contact &) const;
-
   // Energy [force x length] that the normal force of clusters i and j would hold at this distance of their centres if i had
   // that radius, damping left out: 0 where they do not touch, unless a cohesive law holds them together now. The work
   // against the force on the way from where it lets go; the law is that of the pair style, all sub-styles together. Changes
   // nothing.
   double energy(int i, int j, double radius_i, double distance) const;
+
+  // The largest stiffness [force/length] of a contact between two clusters of this diameter, of any two types that are in
+  // the group: 2 E/overlap^2 at an overlap of 1 % of the diameter; k_n of linear springs. 0: not known. Collective.
+  double stiffest(int groupbit, double diameter) const;
 
   // Energy [force x length] that a contact holds at this instant: normal, and of the tangential spring if the style has one.
   double energy_now(const Contact &) const;

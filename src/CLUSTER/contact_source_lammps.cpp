@@ -136,25 +136,22 @@ Vec3 ContactSource::contact_force(const Contact &c) const
   return normal * dx + to_vec3(c.pair->svector);
 }
 
-/* ----------------------------------------------------------------------
-   the same force law at equal velocities, where it does not damp
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
-double ContactSource::stiffness(const Contact &c) const
+double ContactSource::stiffest(int groupbit, double diameter) const
 {
-  if (const auto *ours = dynamic_cast<const PairGranCluster *>(c.pair)) return ours->contact_law().k_n;
-  double *vi = atom->v[c.i];
-  double kept[3];
-  memcpy(kept, vi, sizeof(kept));
-  memcpy(vi, atom->v[c.j], sizeof(kept));
-  const Vec3 dx = to_vec3(atom->x[c.i]) - to_vec3(atom->x[c.j]);
-  double normal = 0.0;
-  // NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage): a contact has its pair style
-  c.pair->single(c.i, c.j, atom->type[c.i], atom->type[c.j], dot(dx, dx), 1.0, 1.0, normal);
-  memcpy(vi, kept, sizeof(kept));
-  const double r = ClusterDEM::norm(dx);
-  const double overlap = atom->radius[c.i] + atom->radius[c.j] - r;
-  return overlap > 0.0 ? std::fabs(normal) * r / overlap : 0.0;
+  std::vector<int> present(atom->ntypes + 1, 0), anywhere(atom->ntypes + 1, 0);
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit) present[atom->type[i]] = 1;
+  MPI_Allreduce(present.data(), anywhere.data(), atom->ntypes + 1, MPI_INT, MPI_MAX, world);
+  const double overlap = 0.01 * diameter;
+  double most = 0.0;
+  for (const Pair *pair : pairs)
+    for (int a = 1; a <= atom->ntypes; a++)
+      for (int b = a; b <= atom->ntypes; b++)
+        if (anywhere[a] && anywhere[b] && acts(force->pair, pair, a, b))
+          most = std::max(most, NormalLaw(pair, a, b, 0.5 * diameter, 0.5 * diameter).energy(overlap));
+  return secant_stiffness(most, overlap);
 }
 
 /* ---------------------------------------------------------------------- */

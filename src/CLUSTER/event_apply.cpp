@@ -92,7 +92,8 @@ void EventApply::create_fragments(const Event &e, tagint first)
 
 int EventApply::copy_of(int parent)
 {
-  atom->avec->create_atom(atom->type[parent], atom->x[parent]);
+  Vec3 x = to_vec3(atom->x[parent]);    // the engine's own may move as it makes room
+  atom->avec->create_atom(atom->type[parent], x.data());
   const int m = atom->nlocal - 1;
   atom->avec->copy(parent, m, 0);
   for (Fix *memory : contact_memories) memory->set_arrays(m);

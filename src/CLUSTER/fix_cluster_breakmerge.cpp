@@ -45,6 +45,7 @@ FixClusterBreakMerge::FixClusterBreakMerge(LAMMPS *lmp, int narg, char **arg) :
   size_peratom_cols = ClusterColumns::NCOLUMNS;
   peratom_freq = 1;
   create_attribute = 1;
+  pergrid_flag = settings.size.cells_given;    // fix balance tells whoever has a grid
   dynamic_group_allow = 0;
   check_scene();
 
@@ -82,16 +83,24 @@ void FixClusterBreakMerge::init()
 {
   const std::string me = fmt::format("Fix {} {}", style, id);
   const SceneChecks scene(lmp, this, me, settings);
-  scene.check_engine();
-  scene.check_order();
-  check.init(me);
+  Requirements all(lmp, me);
+  if (force->pair == nullptr) error->all(FLERR, "{} must be defined after the pair_style command", me);
   arrivals.init(me);
+  arrivals.check_all();
+  scene.check_engine(all);
+  scene.check_order(all);
+  scene.check_foreign(all);
+  scene.check_gravity(all);
+  scene.check_groups(all);
+  scene.check_plane(all);
+  scene.check_room(all);
+  scene.check_lattice(all);
+  all.refuse();
+  check.init(me);
   apply.init();
-  scene.check_foreign();
   pairs.find(me, groupbit, settings.kinds.largest_diameter());
   if (settings.looks_at_contacts()) pairs.expect_contacts(settings.next_check(update->ntimestep));
-  scene.check_room();
-  scene.check_lattice();
+  scene.check_step(all, pairs.stiffest(groupbit, settings.kinds.kind(0).diameter(settings.kinds.limits.lo)));
 }
 
 /* ----------------------------------------------------------------------

@@ -14,6 +14,7 @@
 #include "update.h"
 
 #include <cmath>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -23,13 +24,21 @@ static constexpr double MOST_SITES = 1.0e7;    // of a lattice for fragments: 0.
 
 /* ---------------------------------------------------------------------- */
 
-void SceneChecks::check_engine() const
+void SceneChecks::check_engine(Requirements &all) const
 {
   if (utils::strmatch(update->integrate_style, "^respa"))
-    error->all(FLERR, "{} does not support run_style respa: use run_style verlet", me);
-  if (force->pair == nullptr) error->all(FLERR, "{} must be defined after the pair_style command", me);
+    all.unmet(fmt::format("{} does not support run_style respa: use run_style verlet", me));
+  if (force->ftm2v != 1.0)
+    all.unmet(fmt::format(
+        "{} does not support units {}, where a force is not mass times length over time squared: use units si, cgs, "
+        "micro, nano or lj",
+        me, update->unit_style));
+  if (!settings.size.gravity_given && strcmp(update->unit_style, "si") != 0)
+    all.unmet(fmt::format(
+        "{}: the keyword gravity is required with units {}: its default is 9.81 m/s^2 along z", me,
+        update->unit_style));
   if (find_fixes(lmp, "^cluster/breakmerge").size() > 1)
-    error->all(FLERR, "{}: only one fix cluster/breakmerge at a time", me);
+    all.unmet(fmt::format("{}: only one fix cluster/breakmerge at a time", me));
 }
 
 /* ----------------------------------------------------------------------
@@ -37,31 +46,29 @@ void SceneChecks::check_engine() const
    or move clusters between ranks do so in pre_exchange, too: they must find the events done.
 ------------------------------------------------------------------------- */
 
-void SceneChecks::check_order() const
+void SceneChecks::check_order(Requirements &all) const
 {
   bool after_me = false;
   for (Fix *other : all_fixes(lmp)) {
     const bool history = utils::strmatch(other->id, "^NEIGH_HISTORY");
     if (other == fix) after_me = true;
     else if (after_me && history)
-      error->all(FLERR,
-                 "{} must be defined after the pair_style command: contact history is saved "
+      all.unmet(fmt::format("{} must be defined after the pair_style command: contact history is saved "
                  "in the order of definition",
-                 me);
+                 me));
     else if (!after_me && !history && other->force_reneighbor && (other->setmask() & PRE_EXCHANGE))
-      error->all(FLERR,
-                 "{} must be defined before fix {} {}: breakups and merges of a step are carried out before "
+      all.unmet(fmt::format("{} must be defined before fix {} {}: breakups and merges of a step are carried out before "
                  "other fixes add, delete or migrate clusters",
-                 me, other->style, other->id);
+                 me, other->style, other->id));
   }
 }
 
 /* ---------------------------------------------------------------------- */
 
-void SceneChecks::check_foreign() const
+void SceneChecks::check_foreign(Requirements &all) const
 {
   const std::string foreign = not_for_clusters(lmp, fix->groupbit);
-  if (!foreign.empty()) error->all(FLERR, "{} does not support {}", me, foreign);
+  if (!foreign.empty()) all.unmet(fmt::format("{} does not support {}", me, foreign));
 }
 
 /* ----------------------------------------------------------------------
@@ -69,30 +76,27 @@ void SceneChecks::check_foreign() const
    own clusters, and newborns must not skip a whole rank.
 ------------------------------------------------------------------------- */
 
-void SceneChecks::check_room() const
+void SceneChecks::check_room(Requirements &all) const
 {
   const double largest = settings.kinds.largest_diameter();
   const double claim = settings.event.claim, spacing = settings.event.spacing;
   if (claim < largest)
-    error->all(FLERR,
-               "{}: claim {} [length] is below the largest cluster diameter {}: use a larger claim "
+    all.unmet(fmt::format("{}: claim {} [length] is below the largest cluster diameter {}: use a larger claim "
                "or a lower upper limit",
-               me, claim, largest);
+               me, claim, largest));
   const double halves = room_of_halves(largest, spacing);
   if (settings.event.breaking && claim < halves)
-    error->all(FLERR,
-               "{}: claim {} [length] is below {}, the room that two halves of the largest cluster "
+    all.unmet(fmt::format("{}: claim {} [length] is below {}, the room that two halves of the largest cluster "
                "need at spacing {}: the largest could never break",
-               me, claim, halves, spacing);
+               me, claim, halves, spacing));
   const double needed = 2.0 * claim + neighbor->skin;
   const double have = ghost_reach(force->pair->cutforce + neighbor->skin, comm->cutghostuser, neighbor->skin);
   if (have < needed * (1.0 - 1.0e-12))
-    error->all(FLERR,
-               "{}: the ghost cutoff {} is below {}, twice the claim {} plus the skin: use "
+    all.unmet(fmt::format("{}: the ghost cutoff {} is below {}, twice the claim {} plus the skin: use "
                "'{}' or a smaller claim",
-               me, have, needed, claim, ask_for_ghosts(needed * 1.0001, neighbor->skin));
+               me, have, needed, claim, ask_for_ghosts(needed * 1.0001, neighbor->skin)));
   const std::string fault = periodic_box_too_short();
-  if (!fault.empty()) error->all(FLERR, "{}", fault);
+  if (!fault.empty()) all.unmet(fault);
 }
 
 std::string SceneChecks::periodic_box_too_short() const
@@ -108,16 +112,14 @@ std::string SceneChecks::periodic_box_too_short() const
 
 /* ---------------------------------------------------------------------- */
 
-void SceneChecks::check_lattice() const
+void SceneChecks::check_lattice(Requirements &all) const
 {
   const double finest = settings.event.spacing * settings.kinds.smallest_diameter();
   const double sites = ClusterDEM::Lattice::sites_within(settings.event.planar, settings.event.claim / finest + 1.0);
   if (sites > MOST_SITES)
-    error->all(
-        FLERR,
-        "{}: the claim {} [length] holds {:.3g} sites of a lattice for fragments of {} particles, more than "
+    all.unmet(fmt::format("{}: the claim {} [length] holds {:.3g} sites of a lattice for fragments of {} particles, more than "
         "{:.3g}: raise the lower limit or the spacing, or use a smaller claim",
-        me, settings.event.claim, sites, settings.kinds.limits.lo, MOST_SITES);
+        me, settings.event.claim, sites, settings.kinds.limits.lo, MOST_SITES));
 }
 
 /* ---------------------------------------------------------------------- */

@@ -10,6 +10,7 @@
 #include "engine.h"
 
 #include "breakmerge_settings.h"
+#include "requirements.h"
 
 #include <string>
 
@@ -22,12 +23,16 @@ class SceneChecks : protected EnginePointers {
   {
   }
 
-  void check_engine() const;         // integrator, pair style, one fix of this style
-  void check_order() const;          // of fixes
-  void check_foreign() const;        // what changes or binds clusters behind the fix's back
-  void check_room() const;           // claim, ghosts, periodic sides
-  void check_lattice() const;        // how many sites fragments may take
-  void check_part_of_box() const;    // of each rank: changes with the box and its division
+  void check_engine(Requirements &) const;     // integrator, pair style, units, one fix of this style
+  void check_order(Requirements &) const;      // of fixes
+  void check_foreign(Requirements &) const;    // what changes or binds clusters behind the fix's back
+  void check_gravity(Requirements &) const;    // against that of other fixes
+  void check_groups(Requirements &) const;     // who holds and moves the clusters
+  void check_plane(Requirements &) const;      // that clusters lie in, with plane xz
+  void check_step(Requirements &, double stiffness) const;    // against the contacts of the smallest clusters
+  void check_room(Requirements &) const;       // claim, ghosts, periodic sides
+  void check_lattice(Requirements &) const;    // how many sites fragments may take
+  void check_part_of_box() const;              // of each rank: changes with the box and its division
 
  private:
   class Fix *fix;
@@ -35,6 +40,7 @@ class SceneChecks : protected EnginePointers {
   const BreakMergeSettings &settings;
 
   std::string periodic_box_too_short() const;
+  bigint count_outside(int other) const;    // clusters of the group that are not in the other one
 };
 
 }    // namespace LAMMPS_NS

@@ -110,7 +110,9 @@ void SizeCheck::average_cells()
     const double *x = atom->x[i];
     const Vec3 v = to_vec3(atom->v[i]);
     averages->add(x, CellAverages::MASS, atom->rmass[i]);
-    averages->add(x, CellAverages::MASS_SPEED, atom->rmass[i] * std::fabs(v[settings.gravity_axis]));
+    const double speed = v[settings.gravity_axis];
+    averages->add(x, CellAverages::MASS_SPEED,
+                  atom->rmass[i] * (settings.up == UpReading::VECTOR ? speed : std::fabs(speed)));
     if (settings.term_st && settings.nst == NstReading::CELL) {
       const ClusterDrag &law = drag->drag_on_clusters();
       const LocalGas here = drag->prescribed_gas().at(i);
@@ -146,7 +148,7 @@ double SizeCheck::fluidization_power(int i, int kind)
   if (settings.up != UpReading::OWN) {
     const double *x = atom->x[i];
     const double mass = averages->total(x, CellAverages::MASS);
-    speed = mean_speed(averages->total(x, CellAverages::MASS_SPEED), mass);
+    speed = std::fabs(mean_speed(averages->total(x, CellAverages::MASS_SPEED), mass));
     if (settings.up == UpReading::SUPERFICIAL)
       speed = superficial_speed(speed, mass, particles.rho_p, averages->cell_volume());
   }

@@ -7,10 +7,12 @@
 #include "model/contact_law.h"
 #include "style_arguments.h"
 
+#include "model/step_control.h"
+
 using namespace LAMMPS_NS;
 using namespace ClusterDEM;
 
-StepSettings::StepSettings(LAMMPS *lmp, int narg, char **arg) : contact_factor(CONTACT_PI / 5.0)
+StepSettings::StepSettings(LAMMPS *lmp, int narg, char **arg) : contact_factor(PAPER_CONTACT_SHARE)
 {
   StyleArguments args(lmp, narg, arg, 3);
   most = args.positive("DT_MAX", "time");

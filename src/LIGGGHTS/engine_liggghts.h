@@ -45,6 +45,7 @@ class ErrorWords {
     real->all(file, line, message.c_str());
     std::abort();    // never reached: LIGGGHTS does not say that all() does not return
   }
+  void warning(const char *file, int line, const std::string &message) { real->warning(file, line, message.c_str()); }
   // LAMMPS marks the word `caret` of the input line; LIGGGHTS cannot
   template <class... Args>
   [[noreturn]] void all(const char *file, int line, int /*caret*/, const std::string &text, const Args &...args)
@@ -168,7 +169,7 @@ class EngineFix : public Fix {
   ErrorWords *error;
   ModifyWords *modify;
   CommWords *comm;
-  int maxexchange = 0, maxexchange_dynamic = 0;
+  int maxexchange = 0, maxexchange_dynamic = 0, pergrid_flag = 0;
 };
 
 // the size of a message, for one cluster, is asked back by pack_comm(); buffers are made for the largest

@@ -11,6 +11,11 @@ namespace ClusterDEM {
 
 constexpr double PI = 3.14159265358979323846;
 
+inline double sphere_density(double mass, double diameter)
+{
+  return mass / (PI / 6.0 * diameter * diameter * diameter);
+}
+
 struct ClusterGeometry {
   double d_p;              // diameter of a primary particle [length]
   double rho_p;            // density of a primary particle [mass/volume]

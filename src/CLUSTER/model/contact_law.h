@@ -41,6 +41,12 @@ inline double stiffness_ratio(double nu)
   return 2.0 * (1.0 - nu) / (2.0 - nu);
 }
 
+// stiffness of the linear spring that holds this energy at this overlap
+inline double secant_stiffness(double energy, double overlap)
+{
+  return 2.0 * energy / (overlap * overlap);
+}
+
 // Elastic energy of a linear and of a Hertzian spring; the latter's force is k overlap^(3/2) sqrt(R) with the reduced
 // radius R = R_i R_j/(R_i + R_j).
 inline double linear_energy(double k, double overlap)

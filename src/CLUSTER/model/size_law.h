@@ -13,7 +13,7 @@ namespace ClusterDEM {
 
 enum class NstReading { PARTICLE, CLUSTER, CELL };
 enum class NsmfReading { EMMS, PAPER };
-enum class UpReading { OWN, CELL, SUPERFICIAL };
+enum class UpReading { OWN, CELL, SUPERFICIAL, VECTOR };
 
 // Wen & Yu (1966): Re_mf = sqrt(33.7^2 + 0.0408 Ar) - 33.7, Ar = g d_p^3 (rho_p - rho_g)/(rho_g nu^2)
 inline double umf_wen_yu(double d_p, double rho_p, const Gas &gas, double g)
@@ -46,7 +46,7 @@ inline double n_smf(NsmfReading reading, double u_mf, double u_p, double eps_mf,
 }
 
 // U_p of `own`: |V_g|; of `cell`: the mass mean of |V_g| over the clusters of the cell; of `superficial`: that times the
-// solids fraction of the cell
+// solids fraction of the cell; of `vector`: |mass mean of V_g|, the speed of the particle phase of the cell
 inline double mean_speed(double mass_times_speed, double mass)
 {
   return mass_times_speed / mass;

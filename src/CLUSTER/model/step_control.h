@@ -13,6 +13,7 @@
 namespace ClusterDEM {
 
 // Delta t <= C sqrt(m_i/k_n), C = pi/5 in the paper
+inline constexpr double PAPER_CONTACT_SHARE = 3.14159265358979323846 / 5.0;
 inline double contact_step(double c, double lightest_mass, double k_n)
 {
   return c * std::sqrt(lightest_mass / k_n);
