@@ -13,8 +13,7 @@ lammps_options=(
   -DWITH_JPEG=off -DWITH_PNG=off -DWITH_FFMPEG=off -DWITH_GZIP=off -DDOWNLOAD_POTENTIALS=off
 )
 
-# How an engine that watches its own memory is compiled, and the plugin with it. Findings can be suppressed by name
-# (tests/sanitizers.supp), which -fno-sanitize-recover would not heed: UBSAN_OPTIONS tells to stop at the others.
+# How an engine that watches its own memory is compiled, and the plugin with it.
 export CLUSTERDEM_SANITIZERS="-fsanitize=address,undefined,float-cast-overflow -fno-omit-frame-pointer -D_GLIBCXX_ASSERTIONS"
 
 # use_lammps pinned|newest|portable|sanitized: for this machine's processor, or (portable, for packages) for any of
