@@ -21,9 +21,11 @@ DOUBLE = 8  # bytes
 FORWARD = 6  # position and velocity
 REVERSE = 3  # force
 BORDER = 11  # position, velocity, ID, type, mask, radius, mass
-# of a check: positions and velocities of now, power and number of contacts, particles and stable size, suitors, partner, claim,
-# verdict; each goes through all swaps once
-CHECK = (FORWARD, 2, 2, 3, 1, 5, 1)
+# Of a check: positions and velocities of now, power and number of contacts, particles and stable size. Where events happen:
+# suitors and their choice, rooms as they are asked for and as they are taken, powers, who changes. Each goes through all swaps
+# once; choices and rooms (5 numbers each) once more for each further round of the settlement, which is not counted here.
+CHECK = (FORWARD, 2, 2)
+EVENTS = (2, 2, 5, 5, 3, 1)
 BIRTH = 32  # bytes of a birth on its way to its number
 
 
@@ -77,11 +79,16 @@ class Part:
             return 2 * self.swaps
         if load == "a rebuild":
             return self.swaps + self.handed_over  # of each list of ghosts its length
-        return len(CHECK) * self.swaps
+        return len({"a check": CHECK, "events": EVENTS}[load]) * self.swaps
 
     def bytes_of(self, load: str) -> float:
         """Bytes of a rank; of a rebuild and a check those beside the step's own."""
-        numbers = {"a step": FORWARD + REVERSE, "a rebuild": BORDER - FORWARD, "a check": sum(CHECK)}[load]
+        numbers = {
+            "a step": FORWARD + REVERSE,
+            "a rebuild": BORDER - FORWARD,
+            "a check": sum(CHECK),
+            "events": sum(EVENTS),
+        }[load]
         return DOUBLE * numbers * self.sent
 
 
@@ -102,9 +109,9 @@ def times(part: Part, ranks: int, machine: Machine, check_every: int, events: fl
     """
     stages = math.ceil(math.log2(ranks)) if ranks > 1 else 0
     births = events * part.clusters * check_every
-    step, rebuild, check = ("a step", "a rebuild", "a check")
-    messages = part.messages_of(step) + (part.messages_of(rebuild) + part.messages_of(check)) / check_every
-    sent = part.bytes_of(step) + (part.bytes_of(rebuild) + part.bytes_of(check)) / check_every
+    at_checks = ("a rebuild", "a check", "events")
+    messages = part.messages_of("a step") + sum(map(part.messages_of, at_checks)) / check_every
+    sent = part.bytes_of("a step") + sum(map(part.bytes_of, at_checks)) / check_every
     routed = 2 * stages, 2 * births * BIRTH * stages / 2
     reductions = 1 + REDUCTIONS_OF_A_CHECK / check_every
     return {

@@ -58,7 +58,8 @@ int Arrivals::whole_number(int i) const
   const double found_d = 2.0 * atom->radius[i];
   if (n.exact > 1.0e9 || n.exact < 0.5)
     error->one(FLERR,
-               "{}: cluster {} of mass {:.6g} would be {:.3g} primary particles of d_p = {:.6g} and rho_p = {:.6g}: are d_p "
+               "{}: cluster {} of mass {:.6g} would be {:.3g} primary particles of d_p = {:.6g} and rho_p = "
+               "{:.6g}: are d_p "
                "and rho_p given in this order, and in units {} (length, mass/volume)?",
                me, atom->tag[i], atom->rmass[i], n.exact, particles.d_p, particles.rho_p, update->unit_style);
   const double d = particles.diameter(n.whole ? n.n : n.exact);
@@ -69,12 +70,13 @@ int Arrivals::whole_number(int i) const
         ? fmt::format("has diameter {:.10g}, which does not fit its {} primary particles", found_d, n.n)
         : fmt::format("has mass {:.10g}, which is {:.2f} primary particles, not a whole number within 1e-6",
                       atom->rmass[i], n.exact);
-    error->one(FLERR,
-               "{}: cluster {} {}: {} particles at voidage {} need diameter {:.10g} and density {:.10g}, but it has "
-               "diameter {:.10g} and density {:.10g}, a voidage of {:.4g} for particles of density {:.6g}",
-               me, atom->tag[i], fault, nearest, particles.voidage, particles.diameter(nearest),
-               particles.density(), found_d, sphere_density(atom->rmass[i], found_d),
-               1.0 - sphere_density(atom->rmass[i], found_d) / particles.rho_p, particles.rho_p);
+    error->one(
+        FLERR,
+        "{}: cluster {} {}: {} particles at voidage {} need diameter {:.10g} and density {:.10g}, but it has "
+        "diameter {:.10g} and density {:.10g}, a voidage of {:.4g} for particles of density {:.6g}",
+        me, atom->tag[i], fault, nearest, particles.voidage, particles.diameter(nearest), particles.density(),
+        found_d, sphere_density(atom->rmass[i], found_d),
+        1.0 - sphere_density(atom->rmass[i], found_d) / particles.rho_p, particles.rho_p);
   }
   if (n.n > kinds.limits.hi)
     error->one(FLERR,

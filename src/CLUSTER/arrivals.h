@@ -35,8 +35,8 @@ class Arrivals : protected EnginePointers {
   // mass and diameter are the size fix's to change
   void check_size(int i);
 
-  void at_start_of_run();         // collective: counts all, and notes the highest ID
-  std::vector<int> newcomers() const;    // owned clusters that came in since the last rebuild
+  void at_start_of_run();                                // collective: counts all, and notes the highest ID
+  std::vector<int> newcomers() const;                    // owned clusters that came in since the last rebuild
   void welcome(const std::vector<int> &mine, Halo &);    // collective: counts and numbers them
 
   void note_leaving(int i);

@@ -62,7 +62,8 @@ bool BreakMergeSettings::read_size(const std::string &keyword, StyleArguments &a
   } else if (keyword == "nst")
     s.nst = static_cast<NstReading>(args.choice(keyword, {"particle", "cluster", "cell"}));
   else if (keyword == "nsmf") s.nsmf = static_cast<NsmfReading>(args.choice(keyword, {"emms", "paper"}));
-  else if (keyword == "up") s.up = static_cast<UpReading>(args.choice(keyword, {"own", "cell", "superficial", "vector"}));
+  else if (keyword == "up")
+    s.up = static_cast<UpReading>(args.choice(keyword, {"own", "cell", "superficial", "vector"}));
   else if (keyword == "ncc") {
     s.ncc_factor = args.number(keyword, "a number >= 0");
     if (s.ncc_factor < 0.0) args.refuse(keyword, "a number >= 0");
@@ -80,7 +81,8 @@ bool BreakMergeSettings::read_size(const std::string &keyword, StyleArguments &a
 bool BreakMergeSettings::read_event(const std::string &keyword, StyleArguments &args)
 {
   EventSettings &e = event;
-  if (keyword == "test") e.test = static_cast<EventSettings::Test>(args.choice(keyword, {"always", "contact", "end"}));
+  if (keyword == "test")
+    e.test = static_cast<EventSettings::Test>(args.choice(keyword, {"always", "contact", "end"}));
   else if (keyword == "hysteresis") {
     e.hysteresis = args.number(keyword, "a number >= 0");
     if (e.hysteresis < 0.0) args.refuse(keyword, "a number >= 0");
@@ -98,8 +100,7 @@ bool BreakMergeSettings::read_event(const std::string &keyword, StyleArguments &
   else if (keyword == "plane") {
     e.plane_given = true;
     e.planar = args.choice(keyword, {"xz", "none"}) == 0;
-  }
-  else if (keyword == "spacing") {
+  } else if (keyword == "spacing") {
     e.spacing = args.number(keyword, "a number >= 1");
     if (!(e.spacing >= 1.0)) args.refuse(keyword, "a number >= 1");
   } else return false;

@@ -19,7 +19,7 @@ class Grid3d;
 class CellAverages : protected Pointers {
  public:
   enum { MASS, MASS_SPEED, DRAG_POWER, NVALUES };    // the speed with its sign for the reading up vector
-  static constexpr int MOST = 100000000;    // cells in all: 2.4 GB
+  static constexpr int MOST = 100000000;             // cells in all: 2.4 GB
 
   // fix: the owner, whose grid callbacks end in pack() and unpack()
   CellAverages(class LAMMPS *lmp, Fix *fix, const int *cells);

@@ -18,10 +18,11 @@ struct ClusterColumns {
   // of the per-atom array: particles, d, l, N_st, N_cc, N_smf
   enum { N, D, L, ST, CC, MF, NCOLUMNS };
 
-  ClusterTable::Values<int> *count;        // primary particles; 0: not yet known
+  ClusterTable::Values<int> *count;    // primary particles; 0: not yet known
   ClusterTable::Shown *shown;
   ClusterTable::Lists<tagint> *partners;    // in contact at the last test (test end only)
-  ClusterTable::Values<int> *postponed;      // wanted to break at the last check, found no room (not with test always)
+  ClusterTable::Values<int>
+      *postponed;    // wanted to break at the last check, found no room (not with test always)
 
   ClusterDEM::PowerParts power(int i) const
   {

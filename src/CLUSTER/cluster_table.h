@@ -134,8 +134,8 @@ class ClusterTable {
   template <class T> Lists<T> &add_lists(Life life) { return take(std::make_unique<Lists<T>>(), life); }
   Shown &add_shown(int n) { return take(std::make_unique<Shown>(n), CARRIED); }
 
-  bool keeps_any() const;      // is anything written to restart files?
-  bool has_lists() const;      // does the size of a message differ from cluster to cluster?
+  bool keeps_any() const;    // is anything written to restart files?
+  bool has_lists() const;    // does the size of a message differ from cluster to cluster?
   void grow(int rows);
   void copy(int from, int to);
   void clear(int row);

@@ -27,11 +27,10 @@ void ClusterWalls::init(const std::string &me)
   }
   const std::string wall = settings.breaking ? wall_inside_the_box(lmp, settings.planar) : "";
   if (!wall.empty())
-    error->all(
-        FLERR,
-        "{} does not see {}, and would place fragments behind it: let a fixed side of the box be that "
-        "wall, or give the keyword region with the ID of a region within the walls",
-        me, wall);
+    error->all(FLERR,
+               "{} does not see {}, and would place fragments behind it: let a fixed side of the box be that "
+               "wall, or give the keyword region with the ID of a region within the walls",
+               me, wall);
 }
 
 /* ---------------------------------------------------------------------- */

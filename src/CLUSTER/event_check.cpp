@@ -16,8 +16,8 @@ using namespace ClusterDEM;
 
 /* ---------------------------------------------------------------------- */
 
-EventCheck::EventCheck(LAMMPS *lmp, const BreakMergeSettings &s, const ClusterColumns &c, ContactSource &p, Census &all,
-                       Halo &h, int group) :
+EventCheck::EventCheck(LAMMPS *lmp, const BreakMergeSettings &s, const ClusterColumns &c, ContactSource &p,
+                       Census &all, Halo &h, int group) :
     EnginePointers(lmp), settings(s), columns(c), pairs(p), census(all), halo(h), groupbit(group),
     contacts(lmp, p, h, group), sizes(lmp, s, c, group), walls(lmp, s.event)
 {

@@ -28,8 +28,8 @@ namespace LAMMPS_NS {
 
 class EventCheck : protected EnginePointers {
  public:
-  EventCheck(class LAMMPS *lmp, const BreakMergeSettings &, const ClusterColumns &, ContactSource &, Census &, Halo &,
-             int groupbit);
+  EventCheck(class LAMMPS *lmp, const BreakMergeSettings &, const ClusterColumns &, ContactSource &, Census &,
+             Halo &, int groupbit);
 
   void init(const std::string &me);
   void make_cells(class Fix *owner) { sizes.make_cells(owner); }

@@ -169,9 +169,9 @@ void EventPlan::place_fragments(Event &e, const Neighbors &neighbors) const
     if (rooms[i].state == PROCEEDS) obstacles.push_back({centre(i) - e.body.x, rooms[i].radius});
   const Turn turn(crowd.id[e.i], 0, rules.planar ? 2 : 1, rules.check);
   const int wanted = e.plan.pieces();
-  e.placement = place_in_stages(e.plan, e.particles, e.plan.n, rules.fewest(),
-                                rules.kinds->kind(crowd.kind[e.i]), *rules.lattices, turn, rules.spacing, e.reach,
-                                obstacles, crowd.walls_around(e.body.x));
+  e.placement =
+      place_in_stages(e.plan, e.particles, e.plan.n, rules.fewest(), rules.kinds->kind(crowd.kind[e.i]),
+                      *rules.lattices, turn, rules.spacing, e.reach, obstacles, crowd.walls_around(e.body.x));
   e.placement.shifted = e.placement.shifted || e.plan.pieces() < wanted;
 }
 
@@ -189,7 +189,8 @@ void EventPlan::place_merged(Event &e, const Neighbors &neighbors) const
     };
     const double after = energy(e.i, radius, e.body.x);
     e.energy_after += after;
-    e.energy_born += birth_energy(after, energy(e.i, crowd.radius[e.i], to_vec3(crowd.x[e.i])) +
+    e.energy_born += birth_energy(after,
+                                  energy(e.i, crowd.radius[e.i], to_vec3(crowd.x[e.i])) +
                                       energy(e.j, crowd.radius[e.j], to_vec3(crowd.x[e.j])));
   }
   e.placement.found = negligible_birth(e.energy_born, e.body) && crowd.walls_around(e.body.x).contains({}, radius);

@@ -50,7 +50,7 @@ class EventPlan {
   enum State { NONE, OPEN, PROCEEDS, WAITS };
   struct Room {
     int state = NONE;
-    double radius = 0.0;             // that it may take, while it is open; that it takes
+    double radius = 0.0;            // that it may take, while it is open; that it takes
     ClusterDEM::Vec3 shift = {};    // of its centre from the cluster that leads
   };
   std::vector<Room> rooms;

@@ -4,6 +4,7 @@
 
 #include "fix_drag_cluster.h"
 
+#include "requirements.h"
 #include "style_arguments.h"
 
 #include "atom.h"
@@ -90,6 +91,8 @@ void FixDragCluster::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "{} does not support run_style respa: use run_style verlet", me);
   if (domain->triclinic) error->all(FLERR, "{} does not support triclinic boxes", me);
+  const std::string units = foreign_units(lmp, me);
+  if (!units.empty()) error->all(FLERR, units);
   gas.init(me);
   drag.init(me);
 }

@@ -6,6 +6,7 @@
 
 #include "four_clusters.h"
 #include "held_drag.h"
+#include "requirements.h"
 #include "style_arguments.h"
 
 #include "atom.h"
@@ -59,6 +60,8 @@ void FixNVECluster::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix {} {} does not support run_style respa: use run_style verlet", style, id);
 
+  const std::string units = foreign_units(lmp, fmt::format("Fix {} {}", style, id));
+  if (falling && !units.empty()) error->all(FLERR, units);
   drag = nullptr;
   alone = true;
   Fix *dragging = nullptr;

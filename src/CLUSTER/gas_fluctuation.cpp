@@ -82,8 +82,7 @@ const Vec3 &GasFluctuation::factors(int i)
     here.a = a;
     here.b = b;
     here.period = period_now;
-    here.unit =
-        kind == PER_CELL ? cell_fluctuation(seed, a, period_now) : own_fluctuation(seed, a, b, period_now);
+    here.unit = kind == PER_CELL ? cell_fluctuation(seed, a, period_now) : own_fluctuation(seed, a, b, period_now);
   }
   return here.unit;
 }

@@ -32,7 +32,7 @@ class GasFluctuation : protected EnginePointers {
   bool of_clusters() const { return kind == OWN; }
   const ClusterDEM::Vec3 &amplitudes() const { return amplitude; }    // of a field with its own: factors on that
 
-  void prepare(double t);                     // before any factors() of a step
+  void prepare(double t);                    // before any factors() of a step
   const ClusterDEM::Vec3 &factors(int i);    // of owned cluster i
 
   // the draw number of cluster i, as files of version 0.1 have it alone

@@ -74,7 +74,8 @@ DragTotals HeldDrag::add() const
     for (int part = 0; part < 3; part++) {
       const int m = 3 * i + 4 * part;
       const Pack speed = load(v + m);
-      const Pack drag = ClusterDEM::held_drag(along_all.part[part], coefficients.part[part], load(held_u + m), speed);
+      const Pack drag =
+          ClusterDEM::held_drag(along_all.part[part], coefficients.part[part], load(held_u + m), speed);
       store(f + m, load(f + m) + drag);
       forces[part] += drag;
       powers += drag * speed;

@@ -24,7 +24,10 @@ struct DragTotals {
 
 class HeldDrag : protected EnginePointers {
  public:
-  HeldDrag(class LAMMPS *lmp) : EnginePointers(lmp), refresh(1), u(nullptr), b(nullptr), along{}, dt(0.0), elsewhere(false) {}
+  HeldDrag(class LAMMPS *lmp) :
+      EnginePointers(lmp), refresh(1), u(nullptr), b(nullptr), along{}, dt(0.0), elsewhere(false)
+  {
+  }
 
   void hold_for(int steps, ClusterTable &);
   void act_along(const ClusterDEM::Vec3 &axes) { along = axes; }    // 1 where drag acts, else 0
@@ -41,7 +44,7 @@ class HeldDrag : protected EnginePointers {
 
   // Somebody else takes the held drag of this step into a pass of its own: true if there is one.
   bool hand_over();
-  bool handed_over();    // was it? Asked once.
+  bool handed_over();                                             // was it? Asked once.
   const double *velocity() const { return u->data()->data(); }    // 3 per cluster
   const double *coefficient() const { return b->data(); }         // 1 per cluster
   const ClusterDEM::Vec3 &axes() const { return along; }

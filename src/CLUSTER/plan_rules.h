@@ -21,8 +21,8 @@ struct PlanRules {
   bool break_refused = false;
   double claim = 0.0;
   double spacing = 2.0;
-  bool planar = true;         // fragments are placed in the xz plane
-  std::int64_t check = 0;     // its number
+  bool planar = true;        // fragments are placed in the xz plane
+  std::int64_t check = 0;    // its number
 
   int fewest() const { return kinds->limits.lo; }
 };

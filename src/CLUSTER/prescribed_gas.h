@@ -24,7 +24,10 @@ class StyleArguments;
 
 class PrescribedGas : protected EnginePointers {
  public:
-  PrescribedGas(class LAMMPS *lmp) : EnginePointers(lmp), gas{}, mean(lmp), profile_axis(-1), fluctuation(lmp), igroup(0) {}
+  PrescribedGas(class LAMMPS *lmp) :
+      EnginePointers(lmp), gas{}, mean(lmp), profile_axis(-1), fluctuation(lmp), igroup(0)
+  {
+  }
 
   // the words of the command; `me` is the fix in messages
   void parse_properties(StyleArguments &);

@@ -6,6 +6,8 @@
 
 #include "comm.h"
 #include "error.h"
+#include "force.h"
+#include "update.h"
 
 using namespace LAMMPS_NS;
 
@@ -25,4 +27,15 @@ void Requirements::refuse() const
     for (const std::string &message : messages) text += "\n  " + message;
   }
   error->all(FLERR, text);
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::string LAMMPS_NS::foreign_units(LAMMPS *lmp, const std::string &fix)
+{
+  if (lmp->force->ftm2v == 1.0) return "";
+  return fmt::format(
+      "{} does not support units {}, where a force is not mass times length over time squared: use units si, "
+      "cgs, micro, nano or lj",
+      fix, lmp->update->unit_style);
 }

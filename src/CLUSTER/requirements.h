@@ -32,5 +32,8 @@ class Requirements : protected EnginePointers {
   std::vector<std::string> messages;
 };
 
+// units in which a force is mass times acceleration; what is said of others, or nothing
+std::string foreign_units(class LAMMPS *, const std::string &fix);
+
 }    // namespace LAMMPS_NS
 #endif

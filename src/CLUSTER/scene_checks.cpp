@@ -28,15 +28,11 @@ void SceneChecks::check_engine(Requirements &all) const
 {
   if (utils::strmatch(update->integrate_style, "^respa"))
     all.unmet(fmt::format("{} does not support run_style respa: use run_style verlet", me));
-  if (force->ftm2v != 1.0)
-    all.unmet(fmt::format(
-        "{} does not support units {}, where a force is not mass times length over time squared: use units si, cgs, "
-        "micro, nano or lj",
-        me, update->unit_style));
+  const std::string units = foreign_units(lmp, me);
+  all.unmet_if(!units.empty(), units);
   if (!settings.size.gravity_given && strcmp(update->unit_style, "si") != 0)
-    all.unmet(fmt::format(
-        "{}: the keyword gravity is required with units {}: its default is 9.81 m/s^2 along z", me,
-        update->unit_style));
+    all.unmet(fmt::format("{}: the keyword gravity is required with units {}: its default is 9.81 m/s^2 along z",
+                          me, update->unit_style));
   if (find_fixes(lmp, "^cluster/breakmerge").size() > 1)
     all.unmet(fmt::format("{}: only one fix cluster/breakmerge at a time", me));
 }
@@ -54,12 +50,13 @@ void SceneChecks::check_order(Requirements &all) const
     if (other == fix) after_me = true;
     else if (after_me && history)
       all.unmet(fmt::format("{} must be defined after the pair_style command: contact history is saved "
-                 "in the order of definition",
-                 me));
+                            "in the order of definition",
+                            me));
     else if (!after_me && !history && other->force_reneighbor && (other->setmask() & PRE_EXCHANGE))
-      all.unmet(fmt::format("{} must be defined before fix {} {}: breakups and merges of a step are carried out before "
-                 "other fixes add, delete or migrate clusters",
-                 me, other->style, other->id));
+      all.unmet(
+          fmt::format("{} must be defined before fix {} {}: breakups and merges of a step are carried out before "
+                      "other fixes add, delete or migrate clusters",
+                      me, other->style, other->id));
   }
 }
 
@@ -82,19 +79,19 @@ void SceneChecks::check_room(Requirements &all) const
   const double claim = settings.event.claim, spacing = settings.event.spacing;
   if (claim < largest)
     all.unmet(fmt::format("{}: claim {} [length] is below the largest cluster diameter {}: use a larger claim "
-               "or a lower upper limit",
-               me, claim, largest));
+                          "or a lower upper limit",
+                          me, claim, largest));
   const double halves = room_of_halves(largest, spacing);
   if (settings.event.breaking && claim < halves)
     all.unmet(fmt::format("{}: claim {} [length] is below {}, the room that two halves of the largest cluster "
-               "need at spacing {}: the largest could never break",
-               me, claim, halves, spacing));
+                          "need at spacing {}: the largest could never break",
+                          me, claim, halves, spacing));
   const double needed = 2.0 * claim + neighbor->skin;
   const double have = ghost_reach(force->pair->cutforce + neighbor->skin, comm->cutghostuser, neighbor->skin);
   if (have < needed * (1.0 - 1.0e-12))
     all.unmet(fmt::format("{}: the ghost cutoff {} is below {}, twice the claim {} plus the skin: use "
-               "'{}' or a smaller claim",
-               me, have, needed, claim, ask_for_ghosts(needed * 1.0001, neighbor->skin)));
+                          "'{}' or a smaller claim",
+                          me, have, needed, claim, ask_for_ghosts(needed * 1.0001, neighbor->skin)));
   const std::string fault = periodic_box_too_short();
   if (!fault.empty()) all.unmet(fault);
 }
@@ -115,9 +112,11 @@ std::string SceneChecks::periodic_box_too_short() const
 void SceneChecks::check_lattice(Requirements &all) const
 {
   const double finest = settings.event.spacing * settings.kinds.smallest_diameter();
-  const double sites = ClusterDEM::Lattice::sites_within(settings.event.planar, settings.event.claim / finest + 1.0);
+  const double sites =
+      ClusterDEM::Lattice::sites_within(settings.event.planar, settings.event.claim / finest + 1.0);
   if (sites > MOST_SITES)
-    all.unmet(fmt::format("{}: the claim {} [length] holds {:.3g} sites of a lattice for fragments of {} particles, more than "
+    all.unmet(fmt::format(
+        "{}: the claim {} [length] holds {:.3g} sites of a lattice for fragments of {} particles, more than "
         "{:.3g}: raise the lower limit or the spacing, or use a smaller claim",
         me, settings.event.claim, sites, settings.kinds.limits.lo, MOST_SITES));
 }

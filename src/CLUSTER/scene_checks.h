@@ -30,9 +30,9 @@ class SceneChecks : protected EnginePointers {
   void check_groups(Requirements &) const;     // who holds and moves the clusters
   void check_plane(Requirements &) const;      // that clusters lie in, with plane xz
   void check_step(Requirements &, double stiffness) const;    // against the contacts of the smallest clusters
-  void check_room(Requirements &) const;       // claim, ghosts, periodic sides
-  void check_lattice(Requirements &) const;    // how many sites fragments may take
-  void check_part_of_box() const;              // of each rank: changes with the box and its division
+  void check_room(Requirements &) const;                      // claim, ghosts, periodic sides
+  void check_lattice(Requirements &) const;                   // how many sites fragments may take
+  void check_part_of_box() const;    // of each rank: changes with the box and its division
 
  private:
   class Fix *fix;

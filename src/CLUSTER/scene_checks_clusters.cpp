@@ -33,8 +33,9 @@ void SceneChecks::check_gravity(Requirements &all) const
     const Vec3 g = to_vec3(acceleration);
     const double along = g[settings.size.gravity_axis], mine = settings.size.gravity;
     if (norm(g) > 0.0 && std::fabs(std::fabs(along) - mine) > 1.0e-3 * mine)
-      all.warn(fmt::format("{}: gravity {} along {} of the size law is not that of fix {} {}, {:.4g} {:.4g} {:.4g}", me,
-                           mine, "xyz"[settings.size.gravity_axis], other->style, other->id, g[0], g[1], g[2]));
+      all.warn(
+          fmt::format("{}: gravity {} along {} of the size law is not that of fix {} {}, {:.4g} {:.4g} {:.4g}", me,
+                      mine, "xyz"[settings.size.gravity_axis], other -> style, other -> id, g[0], g[1], g[2]));
   }
 }
 
@@ -51,15 +52,17 @@ bigint SceneChecks::count_outside(int other) const
 
 void SceneChecks::check_groups(Requirements &all) const
 {
-  if (count_outside(0) == 0) all.warn(fmt::format("{}: there is no cluster in its group {}", me, group->names[fix->igroup]));
+  if (count_outside(0) == 0)
+    all.warn(fmt::format("{}: there is no cluster in its group {}", me, group->names[fix->igroup]));
   const std::string mine = group->names[fix->igroup];
   if (!settings.size.drag_id.empty()) {
     const Fix *drag = find_fix(lmp, settings.size.drag_id);
     const bigint outside = drag ? count_outside(drag->groupbit) : 0;
     if (outside)
-      all.unmet(fmt::format("{}: {} clusters of its group {} are not in the group {} of fix drag/cluster {}, and would have "
-                            "sizes for a drag that they do not feel: give both fixes one group",
-                            me, outside, mine, group->names[drag->igroup], drag->id));
+      all.unmet(fmt::format(
+          "{}: {} clusters of its group {} are not in the group {} of fix drag/cluster {}, and would have "
+          "sizes for a drag that they do not feel: give both fixes one group",
+          me, outside, mine, group->names[drag->igroup], drag->id));
   }
   if (find_fixes(lmp, "^nve/cluster").empty()) return;
   int moved = 0;
@@ -67,8 +70,9 @@ void SceneChecks::check_groups(Requirements &all) const
     if (other->time_integrate) moved |= other->groupbit;
   const bigint still = count_outside(moved);
   if (still)
-    all.unmet(fmt::format("{}: {} clusters of its group {} are moved by no fix: give fix nve/cluster the same group", me,
-                          still, mine));
+    all.unmet(
+        fmt::format("{}: {} clusters of its group {} are moved by no fix: give fix nve/cluster the same group", me,
+                    still, mine));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -79,11 +83,12 @@ void SceneChecks::check_plane(Requirements &all) const
   const double largest = settings.kinds.largest_diameter();
   if (!settings.event.plane_given) {
     if (domain->prd[1] > 2.0 * largest * (1.0 + 1.0e-12))
-      all.warn(fmt::format(
-          "{}: the box is {:.4g} thick along y, more than two of the largest clusters of {:.4g}, and the keyword plane is not "
-          "given: its default xz places the fragments of a cluster in its own xz plane. Say 'plane none' for fragments in "
-          "all directions, or 'plane xz'",
-          me, domain->prd[1], largest));
+      all.warn(fmt::format("{}: the box is {:.4g} thick along y, more than two of the largest clusters of {:.4g}, "
+                           "and the keyword plane is not "
+                           "given: its default xz places the fragments of a cluster in its own xz plane. Say "
+                           "'plane none' for fragments in "
+                           "all directions, or 'plane xz'",
+                           me, domain->prd[1], largest));
     return;
   }
   double mine[4] = {-INFINITY, -INFINITY, 0.0, 0.0}, most[4];    // -lowest and highest y, largest |v_y| and |v|
@@ -96,13 +101,15 @@ void SceneChecks::check_plane(Requirements &all) const
   }
   MPI_Allreduce(mine, most, 4, MPI_DOUBLE, MPI_MAX, world);
   if (most[0] + most[1] > 1.0e-6 * largest)
-    all.unmet(fmt::format("{}: with plane xz all clusters must lie in one plane, but their y go from {:.6g} to {:.6g}: use "
-                          "plane none, or set y to one value",
-                          me, -most[0], most[1]));
+    all.unmet(fmt::format(
+        "{}: with plane xz all clusters must lie in one plane, but their y go from {:.6g} to {:.6g}: use "
+        "plane none, or set y to one value",
+        me, -most[0], most[1]));
   if (most[2] > 1.0e-9 * most[3])
-    all.unmet(fmt::format("{}: with plane xz clusters must not move along y, but one does at {:.4g}: use plane none, or set vy "
-                          "to 0",
-                          me, most[2]));
+    all.unmet(fmt::format(
+        "{}: with plane xz clusters must not move along y, but one does at {:.4g}: use plane none, or set vy "
+        "to 0",
+        me, most[2]));
 }
 
 /* ----------------------------------------------------------------------
@@ -122,11 +129,13 @@ void SceneChecks::check_step(Requirements &all, double stiffness) const
     fragment = std::min(fragment, settings.kinds.kind(k).mass(settings.kinds.limits.lo));
   for (const auto &[mass, whose] :
        {std::pair{now, std::string("the lightest cluster")},
-        std::pair{fragment, fmt::format("a fragment of {} particles, the lower limit", settings.kinds.limits.lo)}}) {
+        std::pair{fragment,
+                  fmt::format("a fragment of {} particles, the lower limit", settings.kinds.limits.lo)}}) {
     const double bound = contact_step(PAPER_CONTACT_SHARE, mass, stiffness);
     if (dt <= bound || !std::isfinite(bound)) continue;
     all.warn(fmt::format(
-        "{}: the time step {:.4g} is above {:.4g}, pi/5 sqrt(m/k) of {} (m = {:.4g}, k = {:.4g}): its contacts are not "
+        "{}: the time step {:.4g} is above {:.4g}, pi/5 sqrt(m/k) of {} (m = {:.4g}, k = {:.4g}): its contacts "
+        "are not "
         "resolved, and clusters may be lost. Use a shorter step, fix cluster/timestep, or a higher lower limit",
         me, dt, bound, whose, mass, stiffness));
     return;

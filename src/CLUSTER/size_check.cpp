@@ -86,10 +86,10 @@ void SizeCheck::measure(const ContactSums &contacts)
       continue;
     }
     const int kind = kinds.of_type(atom->type[i]);
-    const PowerParts power(
-        settings.term_st ? gas_power(i, kinds.kind(kind)) : 0.0,
-        settings.looks_at_power() ? n_cc(contacts.power(i), atom->rmass[i], settings.ncc_factor) : 0.0,
-        settings.term_mf ? fluidization_power(i, kind) : 0.0);
+    const PowerParts power(settings.term_st ? gas_power(i, kinds.kind(kind)) : 0.0,
+                           settings.looks_at_power() ? n_cc(contacts.power(i), atom->rmass[i], settings.ncc_factor)
+                                                     : 0.0,
+                           settings.term_mf ? fluidization_power(i, kind) : 0.0);
     const StableSize size = rules[kind].stable(power.e_in());
     n_stable[i] = size.n;
     double *row = (*columns.shown)[i];

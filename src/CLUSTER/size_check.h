@@ -26,7 +26,7 @@ class SizeCheck : protected EnginePointers {
  public:
   SizeCheck(class LAMMPS *lmp, const BreakMergeSettings &, const ClusterColumns &, int groupbit);
 
-  void init(const std::string &me);    // the gas, the constants of each kind; stops where they do not fit
+  void init(const std::string &me);     // the gas, the constants of each kind; stops where they do not fit
   void make_cells(class Fix *owner);    // averages, if any reading asks for them
   CellAverages *cells() { return averages.get(); }
 

@@ -45,7 +45,10 @@ class ErrorWords {
     real->all(file, line, message.c_str());
     std::abort();    // never reached: LIGGGHTS does not say that all() does not return
   }
-  void warning(const char *file, int line, const std::string &message) { real->warning(file, line, message.c_str()); }
+  void warning(const char *file, int line, const std::string &message)
+  {
+    real->warning(file, line, message.c_str());
+  }
   // LAMMPS marks the word `caret` of the input line; LIGGGHTS cannot
   template <class... Args>
   [[noreturn]] void all(const char *file, int line, int /*caret*/, const std::string &text, const Args &...args)

@@ -37,7 +37,8 @@ def test_scene(tmp_path, name):
 def test_what_each_scene_is_about(tmp_path):
     """Feed: clusters come in. Two densities: each kind keeps its particles. Box: motion in space."""
     feed = scene(tmp_path / "feed", "feed", 1)
-    fed, left = feed.table("feed.N.txt")[-1, -4:-2]
+    names = (feed.folder / "feed.N.txt").read_text().splitlines()[1].split()[1:]
+    fed, left = (feed.table("feed.N.txt")[-1, names.index(name)] for name in ("fed", "left"))
     assert fed > 5_000 and left >= 0
     two = scene(tmp_path / "two", "two_densities", 1)
     kinds = two.table("two_densities.kinds.txt")

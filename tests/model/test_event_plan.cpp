@@ -160,7 +160,8 @@ struct SerialPlan {
     for (const auto &[slip, low, high, a, b] : contacts) {
       if (busy[low] || busy[high]) continue;
       busy[low] = busy[high] = true;
-      candidates[low] = {a, b, plan_breakup(a->count + b->count, std::min(a->stable, b->stable), s.rules.fewest())};
+      candidates[low] = {a, b,
+                         plan_breakup(a->count + b->count, std::min(a->stable, b->stable), s.rules.fewest())};
     }
     for (const auto &[id, c] : candidates) go(*c.i, c.j, c.plan);    // by ascending ID
   }
@@ -180,9 +181,9 @@ struct SerialPlan {
       for (const Cluster &o : s.clusters)
         if (o.id != i.id && (!j || o.id != j->id)) obstacles.push_back({apart(body.x, to_vec3(o.x)), o.radius});
       for (const Taken &t : taken) obstacles.push_back({apart(body.x, t.centre), t.radius});
-      const Placement placed =
-          place_in_stages(plan, n, plan.n, s.rules.fewest(), particles, *s.rules.lattices,
-                          Turn(i.id, 0, 2, s.rules.check), s.rules.spacing, reach, obstacles, floor_and_lid(body.x));
+      const Placement placed = place_in_stages(plan, n, plan.n, s.rules.fewest(), particles, *s.rules.lattices,
+                                               Turn(i.id, 0, 2, s.rules.check), s.rules.spacing, reach, obstacles,
+                                               floor_and_lid(body.x));
       if (!placed.found) {
         waiting++;
         return;
@@ -313,8 +314,7 @@ struct RankedPlan {
       int nearest = -1;
       for (int j = 0; j < d.crowd.nall; j++)
         if (d.crowd.id[j] == id &&
-            (nearest < 0 ||
-             std::fabs(d.x[j][0] - d.x[i][0]) < std::fabs(d.x[nearest][0] - d.x[i][0])))
+            (nearest < 0 || std::fabs(d.x[j][0] - d.x[i][0]) < std::fabs(d.x[nearest][0] - d.x[i][0])))
           nearest = j;
       return nearest;
     };
@@ -328,9 +328,7 @@ struct RankedPlan {
       for (int j = i + 1; j < d.crowd.nall; j++) {
         const bool ghost = j >= d.crowd.nlocal;
         if (norm(to_vec3(d.x[i]) - to_vec3(d.x[j])) >= d.radius[i] + d.radius[j]) continue;
-        if (ghost && newton &&
-            std::tie(d.x[j][0], d.x[j][2]) < std::tie(d.x[i][0], d.x[i][2]))
-          continue;
+        if (ghost && newton && std::tie(d.x[j][0], d.x[j][2]) < std::tie(d.x[i][0], d.x[i][2])) continue;
         list.push_back({i, j, ghost && !newton});
       }
     return list;
