@@ -63,7 +63,7 @@ SIZE_ERRORS = [
     (f"{GOOD} nst all", "nst value: all (must be particle | cluster | cell)"),
     (f"{GOOD} nst cell", "need the keyword grid nx ny nz"),
     (f"{GOOD} nsmf none", "nsmf value: none (must be emms | paper)"),
-    (f"{GOOD} up gas", "up value: gas (must be own | cell | superficial)"),
+    (f"{GOOD} up gas", "up value: gas (must be own | cell | superficial | vector)"),
     (f"{GOOD} ncc -1", "ncc value: -1 (must be a number >= 0)"),
     (f"{GOOD} terms", "missing terms"),
     (f"{GOOD} terms xx", "terms value: xx (must be any of st, cc, mf)"),

@@ -113,7 +113,7 @@ def test_powers_of_each_kind(tmp_path):
         ("", "kind 2 1e-4", "missing kind rho_p"),
         ("", "kind 2 1e-4 3000 up superficial grid 1 1 1", "up superficial knows one density of primary particles only"),
         ("", "", "does not fit its 750"),  # without its kind a heavy cluster has 750 particles, of another diameter
-        ("", "kind 2 2e-4 5000", "the pair cutoff of types 1 and 1 is"),
+        ("", "kind 2 2e-4 5000", "which is 37.50 primary particles, not a whole number"),  # 300 of 1e-4 m are 37.5 of 2e-4 m
         ("unshielded 0.5", "kind 2 1e-4 5000", "knows one kind of primary particle only"),
     ],
 )  # fmt: skip
