@@ -96,8 +96,8 @@ void FixClusterBreakMerge::init()
   scene.check_plane(all);
   scene.check_room(all);
   scene.check_lattice(all);
+  check.init(me, all);
   all.refuse();
-  check.init(me);
   apply.init();
   pairs.find(me, groupbit, settings.kinds.largest_diameter());
   if (settings.looks_at_contacts()) pairs.expect_contacts(settings.next_check(update->ntimestep));

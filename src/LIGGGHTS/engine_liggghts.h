@@ -229,6 +229,12 @@ inline void set_density(Atom *atom, int i, double density)
   atom->density[i] = density;
 }
 
+inline void prepare_regions(const std::vector<Region *> &) {}
+inline std::string region_without_sides(const Region *)
+{
+  return "";
+}
+
 inline Region *region_of(Domain *domain, const std::string &id)
 {
   const int k = domain->find_region(id.c_str());
