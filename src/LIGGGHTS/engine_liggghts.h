@@ -78,7 +78,8 @@ class ErrorWords {
   static std::string in_its_words(const std::string &message)
   {
     const std::size_t style = 4, id = message.find(' ', style) + 1, end = message.find(':', id);
-    if (message.compare(0, style, "Fix ") || !id || end == std::string::npos || message.find(' ', id) < end) return message;
+    if (message.compare(0, style, "Fix ") || !id || end == std::string::npos || message.find(' ', id) < end)
+      return message;
     return message.substr(0, id) + "(id " + message.substr(id, end - id) + ")" + message.substr(end);
   }
 };
