@@ -9,7 +9,6 @@
 #include "model/cluster_kinds.h"
 #include "model/drag_table.h"
 
-#include "atom.h"
 #include "error.h"
 
 using namespace LAMMPS_NS;
@@ -97,12 +96,4 @@ void ClusterDrag::find_primary_particle(const std::string &me)
                me, unshielded, sizes[0]->style, sizes[0]->id);
   particle_d = kinds.kind(0).d_p;
   particle_mass = kinds.kind(0).particle_mass();
-}
-
-/* ---------------------------------------------------------------------- */
-
-double ClusterDrag::coefficient(int i, const Gas &gas, double slip_speed) const
-{
-  const double n = unshielded > 0.0 ? atom->rmass[i] / particle_mass : 0.0;
-  return cluster_drag_coefficient(*law, gas, 2.0 * atom->radius[i], particle_d, n, unshielded, slip_speed);
 }

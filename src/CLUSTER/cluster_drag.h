@@ -29,7 +29,12 @@ class ClusterDrag : protected EnginePointers {
   void init(const std::string &me);
 
   // drag on cluster i is this coefficient times its slip
-  double coefficient(int i, const ClusterDEM::Gas &gas, double slip_speed) const;
+  double coefficient(int i, const ClusterDEM::Gas &gas, double slip_speed) const
+  {
+    const double n = unshielded > 0.0 ? atom->rmass[i] / particle_mass : 0.0;
+    return ClusterDEM::cluster_drag_coefficient(*law, gas, 2.0 * atom->radius[i], particle_d, n, unshielded,
+                                                slip_speed);
+  }
   // that of one primary particle of diameter d_p
   double particle_coefficient(const ClusterDEM::Gas &gas, double d_p, double slip_speed) const
   {

@@ -4,54 +4,51 @@
 
 #include "cluster_walls.h"
 
-#include "granular_walls.h"
-
 #include "domain.h"
-#include "error.h"
-#include "region.h"
 
 using namespace LAMMPS_NS;
 using namespace ClusterDEM;
 
-/* ----------------------------------------------------------------------
-   fragments stay within non-periodic sides of the box; other walls must be told
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
-void ClusterWalls::init(const std::string &me)
+void ClusterWalls::init(const std::string &me, Requirements &all)
 {
   region = nullptr;
   if (!settings.region_id.empty()) {
     region = region_of(domain, settings.region_id);
-    if (!region) error->all(FLERR, "{}: region ID {} does not exist", me, settings.region_id);
-    return;
+    all.unmet_if(!region, fmt::format("{}: region ID {} does not exist", me, settings.region_id));
+    const std::string fault = region ? region_without_sides(region) : "";
+    all.unmet_if(!fault.empty(), fmt::format("{}: region {} {}", me, settings.region_id, fault));
   }
-  const std::string wall = settings.breaking ? wall_inside_the_box(lmp, settings.planar) : "";
-  if (!wall.empty())
-    error->all(FLERR,
-               "{} does not see {}, and would place fragments behind it: let a fixed side of the box be that "
-               "wall, or give the keyword region with the ID of a region within the walls",
-               me, wall);
+  walls.find();
+  if (!region)    // which is promised to lie within all of them
+    for (const std::string &wall : walls.unseen())
+      all.unmet(fmt::format(
+          "{} does not see where {} is, and would place clusters behind it: give the keyword region with the "
+          "ID of a region within the walls",
+          me, wall));
+}
+
+void ClusterWalls::prepare()
+{
+  walls.prepare();
+  if (region) prepare_regions({region});
 }
 
 /* ---------------------------------------------------------------------- */
 
-void ClusterWalls::prepare()
+Walls ClusterWalls::around(const Vec3 &parent) const
 {
-  if (region) region->prematch();
-}
-
-Walls ClusterWalls::around(const Vec3 &origin) const
-{
-  Walls walls;
+  Walls here;
   for (int axis = 0; axis < 3; axis++) {
-    const bool wall = !domain->periodicity[axis] && !(settings.planar && axis == 1);
-    walls.lo[axis] = wall ? domain->boxlo[axis] - origin[axis] : -INFINITY;
-    walls.hi[axis] = wall ? domain->boxhi[axis] - origin[axis] : INFINITY;
+    const bool side = !domain->periodicity[axis] && !(settings.planar && axis == 1);
+    here.lo[axis] = side ? domain->boxlo[axis] - parent[axis] : -INFINITY;
+    here.hi[axis] = side ? domain->boxhi[axis] - parent[axis] : INFINITY;
   }
-  if (region)
-    walls.inside = [this, origin](const Vec3 &p, double radius) {
-      const Vec3 q = origin + p;
-      return region->match(q[0], q[1], q[2]) && region->surface(q[0], q[1], q[2], radius) == 0;
-    };
-  return walls;
+  here.inside = [this, parent](const Vec3 &p, double radius) {
+    const Vec3 centre = parent + p;
+    return walls.hold(parent, centre, radius, settings.planar) &&
+        (!region || region_holds(region, parent, centre, radius));
+  };
+  return here;
 }

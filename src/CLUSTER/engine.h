@@ -21,6 +21,7 @@
 #include "neighbor.h"
 #include "pair.h"
 #include "pointers.h"
+#include "region.h"
 #include "sorted_dumps.h"
 #include "utils.h"
 
@@ -86,6 +87,17 @@ inline std::vector<Fix *> fixes_that_remember_contacts(LAMMPS *lmp)
 
 // LAMMPS keeps mass and diameter alone
 inline void set_density(Atom *, int, double) {}
+
+// where regions are at this step
+inline void prepare_regions(const std::vector<Region *> &regions)
+{
+  for (Region *region : regions) region->prematch();
+}
+// why no sphere can be kept within a region; empty if it can
+inline std::string region_without_sides(const Region *region)
+{
+  return region->openflag && region->dynamic ? "has open faces and moves: no place can be told to be within" : "";
+}
 
 inline Region *region_of(Domain *domain, const std::string &id)
 {

@@ -25,10 +25,10 @@ EventCheck::EventCheck(LAMMPS *lmp, const BreakMergeSettings &s, const ClusterCo
 
 /* ---------------------------------------------------------------------- */
 
-void EventCheck::init(const std::string &me)
+void EventCheck::init(const std::string &me, Requirements &all)
 {
   sizes.init(me);
-  walls.init(me);
+  walls.init(me, all);
   const double reach = settings.event.claim / (settings.event.spacing * settings.kinds.smallest_diameter()) + 1.0;
   const bool planar = settings.event.planar;
   lattices = std::make_unique<Lattices>(planar ? 0 : -1, planar ? 2 : -1, reach);

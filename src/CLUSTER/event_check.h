@@ -31,7 +31,7 @@ class EventCheck : protected EnginePointers {
   EventCheck(class LAMMPS *lmp, const BreakMergeSettings &, const ClusterColumns &, ContactSource &, Census &,
              Halo &, int groupbit);
 
-  void init(const std::string &me);
+  void init(const std::string &me, Requirements &);
   void make_cells(class Fix *owner) { sizes.make_cells(owner); }
   CellAverages *cells() { return sizes.cells(); }
   void measure();    // contacts and stable sizes, as they are now; ghosts must have moved along

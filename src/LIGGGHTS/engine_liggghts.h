@@ -45,7 +45,7 @@ class ErrorWords {
           real->fix_error(
               file, line, fix,
               message.substr(std::min(message.find_first_not_of(": ", me.size()), message.size())).c_str());
-    real->all(file, line, message.c_str());
+    real->all(file, line, in_its_words(message).c_str());
     std::abort();    // never reached: LIGGGHTS does not say that all() does not return
   }
   void warning(const char *file, int line, const std::string &message)
@@ -75,7 +75,15 @@ class ErrorWords {
 
  private:
   Error *real;
-  Fix *fix;
+  Fix *fix;    // whose words these are; its rooms know its name alone
+
+  // "Fix STYLE ID: …" as LIGGGHTS says it
+  static std::string in_its_words(const std::string &message)
+  {
+    const std::size_t style = 4, id = message.find(' ', style) + 1, end = message.find(':', id);
+    if (message.compare(0, style, "Fix ") || !id || end == std::string::npos || message.find(' ', id) < end) return message;
+    return message.substr(0, id) + "(id " + message.substr(id, end - id) + ")" + message.substr(end);
+  }
 };
 
 class ModifyWords {
@@ -230,6 +238,12 @@ inline void sort_dumps_in_earnest(LAMMPS *) {}
 inline void set_density(Atom *atom, int i, double density)
 {
   atom->density[i] = density;
+}
+
+inline void prepare_regions(const std::vector<Region *> &) {}
+inline std::string region_without_sides(const Region *)
+{
+  return "";
 }
 
 inline Region *region_of(Domain *domain, const std::string &id)

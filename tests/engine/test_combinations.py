@@ -48,6 +48,11 @@ WORKS = {
     "walls on fixed sides": closed(f"fix walls all wall/gran {WALLS} xplane 0 0.03", f"fix ends all wall/gran {WALLS} zplane 0 0.03"),
     "a wall in y": after(f"fix wall all wall/gran {WALLS} yplane 0 0.003"),
     "walls within, told by a region": closed(TUBE + f"fix wall all wall/gran/region {WALLS} region tube").replace("merge 0.2", "merge 0.2 region tube"),
+    "a plane inside the box": closed(f"fix walls all wall/gran {WALLS} xplane 0.003 0.027"),
+    "a plane that moves": closed(f"fix walls all wall/gran {WALLS} zplane 0.003 0.027 wiggle z 1e-3 1"),
+    "a tube": closed(f"fix wall all wall/gran {WALLS} zcylinder 0.1"),
+    "a region's wall": closed(TUBE + f"fix wall all wall/gran/region {WALLS} region tube"),
+    "mirrors": closed("fix walls all wall/reflect xlo 0.003 xhi EDGE zlo EDGE zhi EDGE"),
     "hybrid/overlay": ALL.replace(pair(), f"pair_style hybrid/overlay gran/hooke/history 10 8.57 50 25 0.33 1 zero {CUTOFF}\npair_coeff * * gran/hooke/history\npair_coeff * * zero\n"),
     "neigh_modify exclude": after("group one id <= 50\ngroup two subtract all one\nneigh_modify exclude group one two"),
     "a smaller group": (ALL.replace(GAS, "group some id <= 60\n" + GAS).replace("fix size all", "fix size some")),
@@ -68,7 +73,10 @@ WORKS = {
 
 
 def particles(name: str, table: np.ndarray) -> np.ndarray:
-    at_start = dict.fromkeys(("walls on fixed sides", "walls within, told by a region", "a smaller group"), 60)
+    names = "walls on fixed sides,a plane inside the box,a plane that moves,a tube,a region's wall,mirrors,a smaller group".split(
+        ","
+    )
+    at_start = dict.fromkeys([*names, "walls within, told by a region"], 60)
     return np.full(len(table), at_start.get(name, 100) * 400.0)
 
 
@@ -84,8 +92,6 @@ def test_works(tmp_path, name):
     assert table[-1, scenes.BREAKUPS] > 0
 
 
-INSIDE = "would place fragments behind it"
-
 REFUSED = {
     "two dimensions": ("units si\ndimension 2\natom_style sphere\ncomm_modify vel yes\nregion box block 0 1 0 1 -0.1 0.1\ncreate_box 1 box\n" + pair() + GAS + SIZE, "requires a 3-d simulation"),
     "triclinic": (ALL.replace(RUN, "change_box all triclinic\n" + RUN), "does not support triclinic boxes"),
@@ -95,10 +101,8 @@ REFUSED = {
     "fix adapt": (after("variable d equal 1e-3\nfix grow all adapt 10 atom diameter v_d").replace("atom_style   sphere", "atom_style sphere 1"), "does not support fix adapt grow, which changes diameters"),
     "two fixes": (after(SIZE.replace("fix size", "fix more")), "only one fix cluster/breakmerge at a time"),
     "dynamic group": (ALL.replace(SIZE, "group low dynamic all region box every 10\n" + SIZE.replace("all", "low")), "dynamic group"),
-    "a plane inside the box": (closed(f"fix walls all wall/gran {WALLS} xplane 0.001 0.029"), f"fix wall/gran walls: a plane at x = 0.001, and {INSIDE}"),
-    "a plane that moves": (closed(f"fix walls all wall/gran {WALLS} zplane 0 0.03 wiggle z 1e-3 1"), f"a plane that moves, and {INSIDE}"),
-    "a tube": (closed(f"fix wall all wall/gran {WALLS} zcylinder 0.01"), f"fix wall/gran wall: not a plane, and {INSIDE}"),
-    "a region's wall": (closed(TUBE + f"fix wall all wall/gran/region {WALLS} region tube"), f"fix wall/gran/region wall: not a plane, and {INSIDE}"),
+    "an indenter": (after("fix ball all indent 10.0 sphere 0.015 0.0015 0.015 0.002 units box"), "does not see where fix indent ball is"),
+    "a wall that is a variable": (closed("variable low equal 0.001\nfix walls all wall/reflect xlo v_low"), "does not see where fix wall/reflect walls, whose place is a variable"),
     "a region that is not there": (ALL.replace("merge 0.2", "merge 0.2 region tube"), "region ID tube does not exist"),
     "a box that shrinks": (after("fix shrink all deform 1 x final 0 0.009 remap x").replace(RUN, "run 300\n"), "an event would meet its own image"),
     "a set command within a run": (ALL.replace(RUN, 'run 300 every 30 "set atom 1 diameter 1e-3"\n'), "does not fit its 400 primary particles"),
