@@ -17,6 +17,7 @@
 #include <vector>
 
 namespace LAMMPS_NS {
+class LargestDiameters;
 class Pair;
 
 class ContactSource : protected Pointers {
@@ -34,12 +35,12 @@ class ContactSource : protected Pointers {
 
   ContactSource(class LAMMPS *lmp) : Pointers(lmp) {}
 
-  // find the pair styles; stops with an error that names the fix if there is none, or if a pair of
-  // clusters of the largest diameter could be missed
-  void find(const std::string &fix, int groupbit, double largest_diameter);
+  // find the pair styles; stops with an error that names the fix if there is none
+  void find(const std::string &fix);
 
-  // the same for the pairs of types that there are now
-  void check_cutoff(const std::string &fix, int groupbit, double largest_diameter) const;
+  // in words: the pair of types whose cutoff is shortest of where its largest atoms touch, if any is, so that contacts
+  // would be missed; else empty
+  std::string short_cutoff(const std::string &fix, const LargestDiameters &) const;
 
   const std::vector<Pair *> &pair_styles() const { return pairs; }
 

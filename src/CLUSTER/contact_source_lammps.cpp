@@ -12,6 +12,7 @@
 #include "contact_memory.h"
 #include "error.h"
 #include "force.h"
+#include "largest_diameters.h"
 #include "normal_law.h"
 #include "pair_gran_cluster.h"
 #include "pair_hybrid.h"
@@ -42,7 +43,7 @@ static bool acts(const Pair *whole, const Pair *sub, int type_i, int type_j)
 
 /* ---------------------------------------------------------------------- */
 
-void ContactSource::find(const std::string &fix, int groupbit, double largest_diameter)
+void ContactSource::find(const std::string &fix)
 {
   pairs.clear();
   for (const char *word : {"^granular", "^gran/"})
@@ -67,43 +68,47 @@ void ContactSource::find(const std::string &fix, int groupbit, double largest_di
 
   if (comm->ghost_velocity == 0)
     error->all(FLERR, "{} needs the velocities of ghost clusters: use comm_modify vel yes", fix);
-
-  check_cutoff(fix, groupbit, largest_diameter);
 }
 
 /* ----------------------------------------------------------------------
-   A pair style takes its cutoff from the largest radius there is at set-up; clusters that merge to
-   a larger one would overlap without a force, and without a word.
+   A pair style takes its cutoff from the largest radius there is at set-up, or from the user. Clusters that merge to a
+   larger one, and bodies larger than all clusters, would overlap without a force, and without a word.
 ------------------------------------------------------------------------- */
 
-void ContactSource::check_cutoff(const std::string &fix, int groupbit, double largest_diameter) const
+std::string ContactSource::short_cutoff(const std::string &fix, const LargestDiameters &largest) const
 {
-  if (!(largest_diameter > 0.0)) return;
-  std::vector<int> present(atom->ntypes + 1, 0), anywhere(atom->ntypes + 1, 0);
-  for (int i = 0; i < atom->nlocal; i++)
-    if (atom->mask[i] & groupbit) present[atom->type[i]] = 1;
-  MPI_Allreduce(present.data(), anywhere.data(), atom->ntypes + 1, MPI_INT, MPI_MAX, world);
+  double longest = 0.0;
+  std::string fault;
   for (int a = 1; a <= atom->ntypes; a++)
     for (int b = a; b <= atom->ntypes; b++) {
-      if (!anywhere[a] || !anywhere[b]) continue;
-      const double cutoff = std::sqrt(force->pair->cutsq[a][b]);
+      if (!largest.may_meet(a, b)) continue;
+      const double d_a = largest.of(a), d_b = largest.of(b), cutoff = std::sqrt(force->pair->cutsq[a][b]);
       double bond = 0.0;
+      bool touch = largest.in_group(a) && largest.in_group(b);    // others may have no contacts, if the user says so
       for (const Pair *pair : pairs)
-        if (acts(force->pair, pair, a, b))
-          bond =
-              std::max(bond, NormalLaw(pair, a, b, 0.5 * largest_diameter, 0.5 * largest_diameter).bond_length());
-      const double reach = largest_diameter + bond;
-      if (cutoff < reach * (1.0 - 1.0e-12))
-        error->all(
-            FLERR,
-            "{}: the pair cutoff of types {} and {} is {}, below the largest cluster diameter {}{} "
-            "that the limits allow, so that merged clusters would overlap without a force: add "
-            "'cutoff {}' to pair_coeff of pair style granular or to pair_style gran/cluster, or for other gran/* "
-            "use pair_style hybrid/overlay with 'zero {}'",
-            fix, a, b, cutoff, largest_diameter,
-            bond > 0.0 ? fmt::format(" and the {} beyond it to which cohesion holds two", bond) : "",
-            reach * 1.0001, reach * 1.0001);
+        if (acts(force->pair, pair, a, b)) {
+          touch = true;
+          bond = std::max(bond, NormalLaw(pair, a, b, 0.5 * d_a, 0.5 * d_b).bond_length());
+        }
+      const double reach = 0.5 * (d_a + d_b) + bond;
+      if (!touch || cutoff >= reach * (1.0 - 1.0e-12) || reach <= longest) continue;
+      longest = reach;
+      auto whose = [&](int type) {
+        return fmt::format("{} {}", largest.of(type),
+                           largest.of(type) > largest.outside(type) ? "that the limits allow" : "outside of the group");
+      };
+      const std::string touching = d_a == d_b
+          ? "the largest cluster diameter " + whose(a)
+          : fmt::format("{}, where the largest touch, of diameters {} and {}", 0.5 * (d_a + d_b), whose(a), whose(b));
+      const std::string bonds =
+          bond > 0.0 ? fmt::format(" and the {} beyond it to which cohesion holds two", bond) : "";
+      fault = fmt::format(
+          "{}: the pair cutoff of types {} and {} is {}, below {}{}, so that they would overlap without a force: add "
+          "'cutoff {}' to pair_coeff of pair style granular or to pair_style gran/cluster, or for other gran/* "
+          "use pair_style hybrid/overlay with 'zero {}'",
+          fix, a, b, cutoff, touching, bonds, reach * 1.0001, reach * 1.0001);
     }
+  return fault;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -16,12 +16,17 @@
 #include "comm.h"
 #include "domain.h"
 #include "fix.h"
+#include "force.h"
 #include "modify.h"
+#include "neighbor.h"
+#include "pair.h"
 #include "pointers.h"
 #include "region.h"
 #include "sorted_dumps.h"
 #include "utils.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -124,15 +129,40 @@ inline std::string not_for_clusters(LAMMPS *lmp, int groupbit)
   return "";
 }
 
-// how far beyond its part of the box a rank sees every cluster, where the pair style and the user ask for these cutoffs,
-// and the command that makes it see further
-inline double ghost_reach(double pair_cutoff, double user_cutoff, double /*skin*/)
+// how far beyond its part of the box a rank sees every atom of this type, by the cutoffs that the pair style and the user ask
+// for; ghosts of which the cutoff is, for a message; the command that makes ranks see further
+struct ReducedReach : Comm {    // comm_modify reduce/multi, which nobody is told
+  static bool asked(const Comm *comm) { return comm->*(&ReducedReach::multi_reduce); }
+};
+inline double ghost_reach(LAMMPS *lmp, int type)
 {
-  return pair_cutoff > user_cutoff ? pair_cutoff : user_cutoff;
+  const Comm *comm = lmp->comm;
+  const Pair *pair = lmp->force->pair;
+  const double skin = lmp->neighbor->skin;
+  if (comm->mode == Comm::SINGLE) return std::max(pair->cutforce + skin, comm->cutghostuser);
+  double of_pairs = 0.0;
+  for (int other = 1; other <= lmp->atom->ntypes; other++)
+    of_pairs = std::max(of_pairs, std::sqrt(pair->cutsq[type][other]) + skin);
+  if (comm->mode == Comm::MULTIOLD)
+    return comm->cutusermultiold ? std::max(of_pairs, comm->cutusermultiold[type]) : of_pairs;
+  // collections are types, unless the user makes them otherwise: then any may hold this type
+  const double *first = comm->cutusermulti, *last = first ? first + comm->ncollections_cutoff : first;
+  if (lmp->neighbor->custom_collection_flag || ReducedReach::asked(comm))
+    return first == last ? 0.0 : std::max(0.0, *std::min_element(first, last));
+  return type <= last - first ? std::max(of_pairs, first[type - 1]) : of_pairs;
 }
-inline std::string ask_for_ghosts(double reach, double /*skin*/)
+inline std::string ghosts_of_a_type(LAMMPS *lmp, int type)
 {
-  return fmt::format("comm_modify cutoff {}", reach);
+  return lmp->comm->mode == Comm::SINGLE ? "" : fmt::format(" of type {}", type);
+}
+inline std::string ask_for_ghosts(LAMMPS *lmp, double reach)
+{
+  const int mode = lmp->comm->mode;
+  return fmt::format("comm_modify cutoff{} {}",
+                     mode == Comm::SINGLE      ? ""
+                         : mode == Comm::MULTI ? "/multi *"
+                                               : "/multi/old *",
+                     reach);
 }
 
 }    // namespace LAMMPS_NS

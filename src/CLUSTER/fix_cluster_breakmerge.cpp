@@ -29,7 +29,8 @@ static BreakMergeSettings read_settings(LAMMPS *lmp, int narg, char **arg)
 }
 
 FixClusterBreakMerge::FixClusterBreakMerge(LAMMPS *lmp, int narg, char **arg) :
-    ClusterFix(lmp, narg, arg), settings(read_settings(lmp, narg, arg)), columns{}, pairs(lmp), tags(lmp),
+    ClusterFix(lmp, narg, arg), settings(read_settings(lmp, narg, arg)), columns{}, pairs(lmp),
+    largest(lmp, settings.kinds, groupbit), tags(lmp),
     arrivals(lmp, settings.kinds, columns, tags, census, groupbit),
     check(lmp, settings, columns, pairs, census, halo, groupbit),
     apply(lmp, settings.kinds, columns, tags, check.carried()), output{}, output_step(-1), resumed_from_0_1(false)
@@ -97,12 +98,24 @@ void FixClusterBreakMerge::init()
   scene.check_plane(all);
   scene.check_room(all);
   scene.check_lattice(all);
+  pairs.find(me);
+  largest.find();
+  check_cutoffs(all);
   check.init(me, all);
   all.refuse();
   apply.init();
-  pairs.find(me, groupbit, settings.kinds.largest_diameter());
   if (settings.looks_at_contacts()) pairs.expect_contacts(settings.next_check(update->ntimestep));
   scene.check_step(all, pairs.stiffest(groupbit, settings.kinds.kind(0).diameter(settings.kinds.limits.lo)));
+}
+
+// of contacts and of ghosts, for the atoms that there are now
+
+void FixClusterBreakMerge::check_cutoffs(Requirements &all)
+{
+  const std::string me = fmt::format("Fix {} {}", style, id);
+  const std::string fault = pairs.short_cutoff(me, largest);
+  all.unmet_if(!fault.empty(), fault);
+  SceneChecks(lmp, this, me, settings).check_ghosts(all, largest);
 }
 
 /* ----------------------------------------------------------------------
@@ -184,9 +197,13 @@ void FixClusterBreakMerge::pre_neighbor()
 {
   const std::string me = fmt::format("Fix {} {}", style, id);
   SceneChecks(lmp, this, me, settings).check_part_of_box();
+  if (largest.find()) {
+    Requirements all(lmp, me);
+    check_cutoffs(all);
+    all.refuse();
+  }
   const std::vector<int> mine = arrivals.newcomers();
   if (!halo.anywhere(!mine.empty())) return;
-  pairs.check_cutoff(me, groupbit, settings.kinds.largest_diameter());
   arrivals.welcome(mine, halo);
   sort_dumps_in_earnest(lmp);
   output_step = -1;

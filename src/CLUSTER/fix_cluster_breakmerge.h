@@ -20,6 +20,7 @@ FixStyle(cluster/breakmerge,FixClusterBreakMerge);
 #include "contact_source.h"
 #include "event_apply.h"
 #include "event_check.h"
+#include "largest_diameters.h"
 #include "newborn_tags.h"
 
 namespace LAMMPS_NS {
@@ -56,6 +57,7 @@ class FixClusterBreakMerge : public ClusterFix, public ClusterDEM::KnowsClusterK
  private:
   ClusterColumns columns;
   ContactSource pairs;
+  LargestDiameters largest;
   Census census;
   NewbornTags tags;
   Arrivals arrivals;
@@ -65,6 +67,7 @@ class FixClusterBreakMerge : public ClusterFix, public ClusterDEM::KnowsClusterK
   bigint output_step;
 
   void check_scene() const;
+  void check_cutoffs(class Requirements &);
   void measure();
 
   void leaving(int i) override;

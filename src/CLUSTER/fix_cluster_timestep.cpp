@@ -103,7 +103,7 @@ void FixClusterTimestep::check_fixes() const
 void FixClusterTimestep::find_pair()
 {
   const std::string me = fmt::format("Fix {} {}", style, id);
-  contacts.find(me, groupbit, 0.0);
+  contacts.find(me);
   auto *ours = dynamic_cast<PairGranCluster *>(force->pair_match("gran/cluster", 1));
   const auto others = other_forces(lmp);
   pair = others.empty() ? ours : nullptr;

@@ -68,10 +68,7 @@ void SceneChecks::check_foreign(Requirements &all) const
   if (!foreign.empty()) all.unmet(fmt::format("{} does not support {}", me, foreign));
 }
 
-/* ----------------------------------------------------------------------
-   Two events meet when their claims do: each rank must see every candidate within two claims of its
-   own clusters, and newborns must not skip a whole rank.
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 void SceneChecks::check_room(Requirements &all) const
 {
@@ -86,15 +83,43 @@ void SceneChecks::check_room(Requirements &all) const
     all.unmet(fmt::format("{}: claim {} [length] is below {}, the room that two halves of the largest cluster "
                           "need at spacing {}: the largest could never break",
                           me, claim, halves, spacing));
-  const double needed = 2.0 * claim + neighbor->skin;
-  const double have = ghost_reach(force->pair->cutforce + neighbor->skin, comm->cutghostuser, neighbor->skin);
-  if (have < needed * (1.0 - 1.0e-12))
-    all.unmet(fmt::format("{}: the ghost cutoff {} is below {}, twice the claim {} plus the skin: use "
-                          "'{}' or a smaller claim",
-                          me, have, needed, claim, ask_for_ghosts(needed * 1.0001, neighbor->skin)));
   const std::string fault = periodic_box_too_short();
   if (!fault.empty()) all.unmet(fault);
 }
+
+/* ----------------------------------------------------------------------
+   Two events meet when their claims do: each rank must see every candidate within two claims of its own clusters, and what
+   is no candidate as far away as it reaches into a claim.
+------------------------------------------------------------------------- */
+
+void SceneChecks::check_ghosts(Requirements &all, const LargestDiameters &largest) const
+{
+  const double claim = settings.event.claim, skin = neighbor->skin;
+  const bool anyone = largest.group_is_empty();    // clusters of any type may come
+  double farthest = 0.0;
+  std::string fault;
+  for (int type = 1; type <= atom->ntypes; type++) {
+    const double have = ghost_reach(lmp, type) * (1.0 + 1.0e-12);
+    auto need = [&](double reach, const std::string &why) {
+      if (have >= reach || reach <= farthest) return;
+      farthest = reach;
+      fault = fmt::format("{}: the ghost cutoff{} {} is below {}, {}", me, ghosts_of_a_type(lmp, type), ghost_reach(lmp, type),
+                          reach, why);
+    };
+    if (largest.in_group(type) || anyone)
+      need(2.0 * claim + skin, fmt::format("twice the claim {} plus the skin", claim));
+    const double radius = 0.5 * largest.outside(type);
+    if (radius > 0.0)
+      need(claim + radius + skin,
+           fmt::format("the claim {} plus the largest radius {} of atoms of type {} outside of the group and the skin, so that a "
+                       "rank would place clusters into what it does not see",
+                       claim, radius, type));
+  }
+  if (!fault.empty())
+    all.unmet(fmt::format("{}: use '{}' or a smaller claim", fault, ask_for_ghosts(lmp, farthest * 1.0001)));
+}
+
+/* ---------------------------------------------------------------------- */
 
 std::string SceneChecks::periodic_box_too_short() const
 {

@@ -20,7 +20,7 @@ using namespace ClusterDEM;
 
 /* ---------------------------------------------------------------------- */
 
-void ContactSource::find(const std::string &fix, int, double)
+void ContactSource::find(const std::string &fix)
 {
   ErrorWords words(error);
   pairs.clear();
@@ -37,7 +37,10 @@ void ContactSource::find(const std::string &fix, int, double)
 /* ---------------------------------------------------------------------- */
 
 // LIGGGHTS asks for the largest radius itself
-void ContactSource::check_cutoff(const std::string &, int, double) const {}
+std::string ContactSource::short_cutoff(const std::string &, const LargestDiameters &) const
+{
+  return "";
+}
 
 void ContactSource::expect_contacts(bigint) {}
 

@@ -13,7 +13,10 @@
 #include "domain.h"
 #include "error.h"
 #include "fix.h"
+#include "force.h"
 #include "modify.h"
+#include "neighbor.h"
+#include "pair.h"
 #include "pointers.h"
 
 #include "format_liggghts.h"
@@ -259,13 +262,17 @@ inline std::string not_for_clusters(LAMMPS *lmp, int)
 }
 
 // LIGGGHTS sends a cluster only over half of the cutoff, half of the skin and its own radius: enough for contacts
-inline double ghost_reach(double pair_cutoff, double user_cutoff, double skin)
+inline double ghost_reach(LAMMPS *lmp, int)
 {
-  return 0.5 * (std::max(pair_cutoff, user_cutoff) + skin);
+  return 0.5 * (std::max(lmp->force->pair->cutforce + lmp->neighbor->skin, lmp->comm->cutghostuser) + lmp->neighbor->skin);
 }
-inline std::string ask_for_ghosts(double reach, double skin)
+inline std::string ghosts_of_a_type(LAMMPS *, int)
 {
-  return fmt::format("communicate single vel yes cutoff {}", 2.0 * reach - skin);
+  return "";
+}
+inline std::string ask_for_ghosts(LAMMPS *lmp, double reach)
+{
+  return fmt::format("communicate single vel yes cutoff {}", 2.0 * reach - lmp->neighbor->skin);
 }
 
 }    // namespace LAMMPS_NS
