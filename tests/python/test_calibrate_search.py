@@ -9,14 +9,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from clusterdem.calibrate.figure import draw_fit
-from clusterdem.calibrate.fit import carry_out
-from clusterdem.calibrate.identify import identify, in_words
-from clusterdem.calibrate.local import explore
-from clusterdem.calibrate.parameters import Choice, Real
-from clusterdem.calibrate.score import spread_of, yardstick
-from clusterdem.calibrate.study import Calibration, Case, Confirm, Local, Search, Stage
-from clusterdem.calibrate.targets import Target
+from clusterdem.studies.calibrate.figure import draw_fit
+from clusterdem.studies.calibrate.fit import carry_out
+from clusterdem.studies.calibrate.identify import identify, in_words
+from clusterdem.studies.calibrate.local import explore
+from clusterdem.studies.calibrate.parameters import Choice, Real
+from clusterdem.studies.calibrate.score import spread_of, yardstick
+from clusterdem.studies.calibrate.study import Calibration, Case, Confirm, Local, Search, Stage
+from clusterdem.studies.calibrate.targets import Target
 
 TIMES = np.linspace(0.01, 0.06, 6)
 NOISE = 0.02

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from clusterdem.calibrate.parameters import Choice, Real, fill, moved, units
-from clusterdem.calibrate.study import read_calibration
-from clusterdem.calibrate.targets import Target, deviations, published_targets, read_off
 from clusterdem.errors import InputError
+from clusterdem.studies.calibrate.parameters import Choice, Real, fill, moved, units
+from clusterdem.studies.calibrate.study import read_calibration
+from clusterdem.studies.calibrate.targets import Target, deviations, published_targets, read_off
 
 ROOT = Path(__file__).parents[2]
 STUDIES = sorted((ROOT / "inputs/calibrate").glob("*.toml"))

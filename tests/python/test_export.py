@@ -11,8 +11,8 @@ import numpy as np
 import polars as pl
 import pytest
 from clusterdem import read_file
+from clusterdem.analysis.correlation import pair_correlation
 from clusterdem.frame import Box, Frame
-from clusterdem.universe import pair_correlation
 from PIL import Image
 from synthetic import BOX, random_frame, write_run
 

@@ -9,7 +9,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from clusterdem.needs import needs_of, statements
+from clusterdem.analysis.needs import needs_of, statements
 from synthetic import write_run
 
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")

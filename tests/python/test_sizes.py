@@ -7,15 +7,15 @@ import csv
 import numpy as np
 import pytest
 from clusterdem import class_shares, size_summary
-from clusterdem.compare import as_text, compare, moment_of
-from clusterdem.enginelog import read_log
+from clusterdem.analysis.grid import Grid, maps_of
+from clusterdem.analysis.nonuniformity import lateral, measure, strips
+from clusterdem.analysis.sizes import fine_edges, histogram
 from clusterdem.errors import InputError
 from clusterdem.frame import Frame
-from clusterdem.grid import Grid, maps_of
-from clusterdem.nonuniformity import lateral, measure, strips
-from clusterdem.published import CASES
-from clusterdem.series import event_rates, read_series
-from clusterdem.sizes import fine_edges, histogram
+from clusterdem.io.enginelog import read_log
+from clusterdem.io.series import event_rates, read_series
+from clusterdem.published.compare import as_text, compare, moment_of
+from clusterdem.published.numbers import CASES
 from synthetic import BOX, random_frame, write_run
 
 

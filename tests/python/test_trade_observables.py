@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from clusterdem.errors import InputError
 from clusterdem.frame import Box, Frame
-from clusterdem.trade.errors import distance, error_between, errors_of, spread_between
-from clusterdem.trade.frames import read_frames, write_frames
-from clusterdem.trade.observables import OBSERVABLES, Observed, grid_of, observe
+from clusterdem.studies.trade.errors import distance, error_between, errors_of, spread_between
+from clusterdem.studies.trade.frames import read_frames, write_frames
+from clusterdem.studies.trade.observables import OBSERVABLES, Observed, grid_of, observe
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays

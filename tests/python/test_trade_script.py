@@ -7,14 +7,14 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from clusterdem.enginelog import read_log
-from clusterdem.errors import InputError
+from clusterdem import ArgumentError, InputError
+from clusterdem.io.enginelog import read_log
 from clusterdem.studies.engine import Engine, find_engine
 from clusterdem.studies.runs import plan
 from clusterdem.studies.script import read_script
-from clusterdem.trade.frames import KEEPING
-from clusterdem.trade.settings import settings_of
-from clusterdem.trade.study import read_study
+from clusterdem.studies.trade.frames import KEEPING
+from clusterdem.studies.trade.settings import settings_of
+from clusterdem.studies.trade.study import read_study
 
 INPUTS = Path(__file__).parents[2] / "inputs"
 ENGINE = Engine("/opt/lmp", "LAMMPS (4 Feb 2025)", "plugin as it is", ())
@@ -119,7 +119,7 @@ def test_a_script_without_seed(study):
 
 
 def test_an_engine_that_is_none(tmp_path):
-    with pytest.raises(InputError, match="--lmp: .*gone is no executable"):
+    with pytest.raises(ArgumentError, match="executable: .*gone is no executable"):
         find_engine(str(tmp_path / "gone"))
     (tmp_path / "lmp").write_text("#!/bin/sh\necho something else\n")
     (tmp_path / "lmp").chmod(0o755)

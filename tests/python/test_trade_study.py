@@ -6,9 +6,9 @@ import itertools
 
 import pytest
 from clusterdem.errors import InputError
-from clusterdem.trade.observables import OBSERVABLES
-from clusterdem.trade.settings import settings_of, together
-from clusterdem.trade.study import read_study
+from clusterdem.studies.trade.observables import OBSERVABLES
+from clusterdem.studies.trade.settings import settings_of, together
+from clusterdem.studies.trade.study import read_study
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 from clusterdem.studies.runs import Cost, Failure, Run, Setting
-from clusterdem.trade.errors import Error
-from clusterdem.trade.weigh import Weighed, cheapest, front
+from clusterdem.studies.trade.errors import Error
+from clusterdem.studies.trade.weigh import Weighed, cheapest, front
 
 
 def weighed(axis, seconds, error, failures=()):

@@ -112,6 +112,6 @@ class Frame:
 
     def to_universe(self) -> MDAnalysis.Universe:
         """The frame as an MDAnalysis Universe; see :func:`clusterdem.universe.to_universe`."""
-        from .universe import to_universe
+        from .io.universe import to_universe
 
         return to_universe(self)

@@ -11,7 +11,7 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..errors import InputError
+from ..errors import ArgumentError, InputError
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ def find_engine(given: str | None = None) -> Engine:
     named = given or os.environ.get("CLUSTERDEM_LMP")
     path = shutil.which(named) if named else beside or shutil.which("lmp")
     if path is None:
-        raise InputError("--lmp", f"{named or 'lmp'} is no executable: name LAMMPS by --lmp PATH or CLUSTERDEM_LMP")
+        raise ArgumentError("executable", f"{named or 'lmp'} is no executable: name LAMMPS here, or by CLUSTERDEM_LMP")
     path = os.path.abspath(path)
     command = [path, "-in", os.devnull, "-log", "none"]
     done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")

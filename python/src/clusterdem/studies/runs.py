@@ -21,10 +21,10 @@ from typing import Protocol
 
 from tqdm import tqdm
 
-from ..enginelog import read_log
 from ..errors import InputError
-from ..output import write_text
-from ..rundir import RunFolder, find_run
+from ..io.enginelog import read_log
+from ..io.output import write_text
+from ..run import RunFolder, find_run
 from .engine import Engine
 from .file import OWN_VARIABLES, Variables
 from .script import read_script
