@@ -35,7 +35,8 @@ def test_vtk(tmp_path, command):
     frame = random_frame(800, 10000, 0.01)
     points = arrays(tmp_path / "v/clusters.0000010000.vtp")
     np.testing.assert_array_equal(points["Points"], np.stack([frame[c] for c in "xyz"], axis=1))
-    np.testing.assert_array_equal(points["v"], np.stack([frame[f"v{c}"] for c in "xyz"], axis=1))
+    for name, parts in (("v", "v{}"), ("ug", "ug_{}"), ("fd", "fd_{}")):
+        np.testing.assert_array_equal(points[name], np.stack([frame[parts.format(c)] for c in "xyz"], axis=1))
     for name in ("diameter", "n", "l", "mass"):
         np.testing.assert_array_equal(points[name].ravel(), frame[name])
     image = arrays(tmp_path / "v/maps.0000010000.vti")
@@ -115,7 +116,7 @@ def test_universe(tmp_path):
 
 
 def test_pair_correlation_of_chance_is_one_also_across_the_border():
-    r, g = pair_correlation(random_frame(20_000))
+    r, g = pair_correlation(random_frame(20_000), 4e-3)
     assert g[5:].mean() == pytest.approx(1, abs=0.02) and r[-1] < 4e-3
 
 
@@ -125,7 +126,7 @@ def test_pair_correlation_of_pairs():
     x, z = 0.3 * rng.random(1000), 0.6 * rng.random(1000)
     columns = {"x": np.concatenate([x, (x + 0.00205) % 0.3]), "z": np.concatenate([z, z])}
     columns.update(mass=np.ones(2000), diameter=np.full(2000, 1e-4), y=np.full(2000, 0.0015))
-    r, g = pair_correlation(Frame(0, 0.0, BOX, columns))
+    r, g = pair_correlation(Frame(0, 0.0, BOX, columns), 4e-3)
     peak = int(np.argmax(g))
     assert r[peak] == pytest.approx(0.00205, abs=6e-5)
     neighbours = g[peak] * 2000 / 0.18 * 2 * np.pi * r[peak] * 1e-4
@@ -137,8 +138,8 @@ def test_pair_correlation_in_space_and_with_walls():
     rng = np.random.default_rng(0)
     columns = {axis: 0.1 * rng.random(20_000) for axis in "xyz"}
     columns.update(mass=np.ones(20_000), diameter=np.full(20_000, 1e-4))
-    _, g = pair_correlation(Frame(0, 0.0, cube, columns))
+    _, g = pair_correlation(Frame(0, 0.0, cube, columns), 4e-3)
     assert g[10:].mean() == pytest.approx(1, abs=0.02)
     walls = Box(cube.lo, cube.hi, (False, False, False))
-    _, g = pair_correlation(Frame(0, 0.0, walls, columns))
+    _, g = pair_correlation(Frame(0, 0.0, walls, columns), 4e-3)
     assert 0.9 < g[10:].mean() < 1

@@ -79,7 +79,7 @@ def test_liggghts_header_and_radius(tmp_path):
     (tmp_path / "a").write_text(text)
     read = only(tmp_path / "a")
     np.testing.assert_array_equal(read.diameter, frame.diameter)
-    assert np.isnan(read.time) and read.label == "step 7" and read.box.periodic == (True, True, True)
+    assert np.isnan(read.time) and read.label == "step 7" and read.box.periodic == (False, False, False)
     assert only(tmp_path / "a", dt=0.5).time == 3.5
 
 

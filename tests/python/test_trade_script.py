@@ -12,7 +12,7 @@ from clusterdem.io.enginelog import read_log
 from clusterdem.studies.engine import Engine, find_engine
 from clusterdem.studies.runs import plan
 from clusterdem.studies.script import read_script
-from clusterdem.studies.trade.frames import KEEPING
+from clusterdem.studies.trade.frames import keeping_of
 from clusterdem.studies.trade.settings import settings_of
 from clusterdem.studies.trade.study import read_study
 
@@ -29,7 +29,7 @@ def study(tmp_path):
 
 
 def keys(study, engine=ENGINE):
-    return [run.key for run in plan(study, settings_of(study), engine, Path("runs"), KEEPING)]
+    return [run.key for run in plan(study, settings_of(study), engine, Path("runs"), keeping_of(("clusters",)))]
 
 
 def edit(path):
@@ -101,7 +101,7 @@ def test_a_key_does_not_depend_on_the_place(study, tmp_path):
 
 
 def test_the_command(study):
-    run = plan(replace(study, ranks=2), settings_of(study), ENGINE, Path("runs"), KEEPING)[4]
+    run = plan(replace(study, ranks=2), settings_of(study), ENGINE, Path("runs"), keeping_of(("clusters",)))[4]
     text = " ".join(run.command)
     assert text.startswith("mpirun -np 2 /opt/lmp -in ")
     assert "-var contact md" in text and "-var seed 2" in text and "-var outdir ." in text

@@ -1,6 +1,6 @@
-"""The x–z grid: depositing clusters on it and the maps that follow.
+"""Grids over one face of the box: depositing clusters on them and the maps that follow.
 
-Solids volume is mass over the density of the primary particles; a cell's volume is dx · dz · slab thickness.
+The volume of a cell runs through the whole depth of the box.
 """
 
 from __future__ import annotations
@@ -14,36 +14,54 @@ from ..errors import ArgumentError, InputError
 from ..frame import Box, Floats, Frame
 from .overlap import overlap_weights
 
-RHO_P = 2000.0
-"""Density of the primary particles (kg/m³), the paper's table 1."""
-
-PAPER_SCALE = 10.0
-"""The paper's printed fractions over the true ones: it counts as if the slab were 0.3 mm thick."""
-
 MAX_CELLS = 10_000_000
 
 
 @dataclass(frozen=True)
 class Grid:
-    """Equal cells over the x–z face of a box.
+    """Equal cells over a face of a box.
 
     Parameters
     ----------
     box : Box
-        The box (m); cells run over its whole thickness in y.
+        The box (m); cells run over its whole depth.
     nx, nz : int
-        Cells along x and z.
+        Cells along the first and the second axis of the plane.
+    plane : str
+        The axes, first the one across: ``xz``, ``xy``, ``yz`` and so on.
+
+    Raises
+    ------
+    ArgumentError
+        If there are no cells or too many, or the plane is not two of x, y, z.
+
+    Examples
+    --------
+    >>> grid = Grid(Box((0, 0, 0), (0.3, 0.003, 0.6)), 30, 30)
+    >>> grid.shape, [round(side, 3) for side in grid.spacing], f"{grid.cell_volume:.1e} m³"
+    ((30, 30), [0.01, 0.02], '6.0e-07 m³')
+    >>> Grid(Box((0, 0, 0), (0.3, 0.003, 0.6)), 30, 30, "xx")
+    Traceback (most recent call last):
+    clusterdem.errors.ArgumentError: plane: must be two of x, y, z, such as xz, not xx
     """
 
     box: Box
     nx: int
     nz: int
+    plane: str = "xz"
 
     def __post_init__(self) -> None:
         if self.nx < 1 or self.nz < 1:
-            raise ArgumentError("shape", "needs at least one cell along x and z")
+            raise ArgumentError("shape", f"needs at least one cell along {' and '.join(self.plane)}")
         if self.nx * self.nz > MAX_CELLS:
             raise ArgumentError("shape", f"{self.nx} x {self.nz} cells are more than {MAX_CELLS:,}")
+        if len(self.plane) != 2 or len(set(self.plane)) != 2 or not set(self.plane) <= set("xyz"):
+            raise ArgumentError("plane", f"must be two of x, y, z, such as xz, not {self.plane}")
+
+    @property
+    def axes(self) -> tuple[int, int]:
+        """Numbers of the two axes, 0 to 2."""
+        return ("xyz".index(self.plane[0]), "xyz".index(self.plane[1]))
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -51,42 +69,69 @@ class Grid:
         return (self.nx, self.nz)
 
     @property
+    def corner(self) -> tuple[float, float]:
+        """Lower bounds of the box along the two axes (m)."""
+        return (self.box.lo[self.axes[0]], self.box.lo[self.axes[1]])
+
+    @property
+    def sides(self) -> tuple[float, float]:
+        """Lengths of the box along the two axes (m)."""
+        return (self.box.lengths[self.axes[0]], self.box.lengths[self.axes[1]])
+
+    @property
+    def periodic(self) -> tuple[bool, bool]:
+        """Whether the box repeats along the two axes."""
+        return (self.box.periodic[self.axes[0]], self.box.periodic[self.axes[1]])
+
+    @property
+    def depth(self) -> float:
+        """Length of the box across the plane (m)."""
+        return self.box.lengths[3 - sum(self.axes)]
+
+    @property
     def spacing(self) -> tuple[float, float]:
-        """Cell widths dx, dz (m)."""
-        return (self.box.lengths[0] / self.nx, self.box.lengths[2] / self.nz)
+        """Cell widths (m)."""
+        return (self.sides[0] / self.nx, self.sides[1] / self.nz)
 
     @property
     def cell_volume(self) -> float:
         """Volume of one cell (m³)."""
-        dx, dz = self.spacing
-        return dx * dz * self.box.lengths[1]
+        return self.spacing[0] * self.spacing[1] * self.depth
 
     @property
-    def x_edges(self) -> Floats:
-        """Cell borders along x (m), shape (nx + 1,)."""
-        return np.linspace(self.box.lo[0], self.box.hi[0], self.nx + 1)
+    def edges(self) -> tuple[Floats, Floats]:
+        """Cell borders along the two axes (m), shapes (nx + 1,) and (nz + 1,)."""
+        (u, v), (width, height) = self.corner, self.sides
+        return (np.linspace(u, u + width, self.nx + 1), np.linspace(v, v + height, self.nz + 1))
 
-    @property
-    def z_edges(self) -> Floats:
-        """Cell borders along z (m), shape (nz + 1,)."""
-        return np.linspace(self.box.lo[2], self.box.hi[2], self.nz + 1)
+    def places(self, frame: Frame) -> tuple[Floats, Floats]:
+        """A frame's centres along the two axes (m), shape (N,) each."""
+        return (frame[self.plane[0]], frame[self.plane[1]])
 
 
-def cell_of(grid: Grid, x: Floats, z: Floats) -> NDArray[np.int64]:
+def grid_of_cells(box: Box, cell: tuple[float, float], plane: str = "xz") -> Grid:
+    """A grid whose cells are as near to ``cell`` (m) as fits the box a whole number of times."""
+    whole = Grid(box, 1, 1, plane)
+    nx, nz = (max(1, round(side / length)) for side, length in zip(whole.sides, cell))
+    return Grid(box, nx, nz, plane)
+
+
+def cell_of(grid: Grid, u: Floats, v: Floats) -> NDArray[np.int64]:
     """Flat index of the cell that holds each point, shape (N,).
 
-    A point on a cell's lower border belongs to it; beyond the box the last cell takes it.
+    A point on a cell's lower border belongs to it; beyond the box the outermost cell takes it.
     """
-    dx, dz = grid.spacing
-    ix = np.clip(((x - grid.box.lo[0]) / dx).astype(np.int64), 0, grid.nx - 1)
-    iz = np.clip(((z - grid.box.lo[2]) / dz).astype(np.int64), 0, grid.nz - 1)
-    return ix * grid.nz + iz
+    place = zip((u, v), grid.corner, grid.spacing, grid.shape)
+    i, k = (np.clip(np.floor((x - low) / width), 0, cells - 1).astype(np.int64) for x, low, width, cells in place)
+    flat: NDArray[np.int64] = i * grid.nz + k
+    return flat
 
 
 def check_resolution(frame: Frame, grid: Grid) -> None:
     """Refuse cells narrower than the smallest cluster: their fractions would say nothing."""
-    smallest, narrowest = float(frame.diameter.min()), min(grid.spacing)
-    if narrowest < smallest:
+    narrowest = min(grid.spacing)
+    smallest = float(frame.diameter.min(initial=np.inf))
+    if narrowest < smallest < np.inf:
         rule = (
             f"a grid of {grid.nx} x {grid.nz} has cells of {narrowest:.3g} m, "
             f"narrower than the smallest cluster ({smallest:.3g} m): use fewer cells"
@@ -115,6 +160,10 @@ class Deposit:
     cluster: NDArray[np.int64] | None = None
     weight: Floats | None = None
 
+    def of(self, values: Floats) -> Floats:
+        """A per-cluster quantity for each share, shape (M,)."""
+        return values if self.cluster is None else values[self.cluster]
+
     def total(self, values: Floats | None = None) -> Floats:
         """Sum of a per-cluster quantity in each cell.
 
@@ -127,22 +176,25 @@ class Deposit:
         -------
         ndarray, shape (nx, nz)
         """
-        shares = values if self.cluster is None or values is None else values[self.cluster]
+        return self.sum(None if values is None else self.of(values))
+
+    def sum(self, shares: Floats | None) -> Floats:
+        """Sum in each cell of a quantity of each share, shape (M,), times its weight; 1 by default."""
         if self.weight is not None:
             shares = self.weight if shares is None else shares * self.weight
         cells = self.grid.nx * self.grid.nz
         return np.bincount(self.cell, shares, cells).astype(np.float64, copy=False).reshape(self.grid.shape)
 
 
-def deposit(grid: Grid, x: Floats, z: Floats, diameter: Floats | None = None, method: str = "nearest") -> Deposit:
+def deposit(grid: Grid, u: Floats, v: Floats, diameter: Floats | None = None, method: str = "nearest") -> Deposit:
     """Assign clusters to cells.
 
     Parameters
     ----------
     grid : Grid
         The grid.
-    x, z : ndarray, shape (N,)
-        Centres (m), inside the box.
+    u, v : ndarray, shape (N,)
+        Centres along the two axes of its plane (m).
     diameter : ndarray, shape (N,), optional
         Diameters (m); needed for ``overlap``.
     method : {"nearest", "overlap"}
@@ -151,17 +203,21 @@ def deposit(grid: Grid, x: Floats, z: Floats, diameter: Floats | None = None, me
     Returns
     -------
     Deposit
+
+    Raises
+    ------
+    ArgumentError
+        If the method is another, or there are no diameters for ``overlap``.
     """
-    cell = cell_of(grid, x, z)
     if method == "nearest":
-        return Deposit(grid, cell)
+        return Deposit(grid, cell_of(grid, u, v))
     if method != "overlap":
         raise ArgumentError("method", f"must be nearest or overlap, not {method}")
     if diameter is None:
-        raise ValueError("overlap needs the diameters")
-    box = grid.box
+        raise ArgumentError("diameter", "is needed for the method overlap")
+    low_u, low_v = grid.corner
     ix, iz, cluster, weight = overlap_weights(
-        x - box.lo[0], z - box.lo[2], diameter / 2, grid.spacing, grid.shape, (box.periodic[0], box.periodic[2])
+        u - low_u, v - low_v, diameter / 2, grid.spacing, grid.shape, grid.periodic
     )
     return Deposit(grid, ix * grid.nz + iz, cluster, weight)
 
@@ -169,16 +225,16 @@ def deposit(grid: Grid, x: Floats, z: Floats, diameter: Floats | None = None, me
 Maps = dict[str, Floats]
 
 
-def solids_fraction(mass: Floats, grid: Grid, rho_p: float = RHO_P) -> Floats:
-    """True solids volume fraction from the mass in each cell (kg), shape (nx, nz)."""
-    return mass / (rho_p * grid.cell_volume)
+def solids_fraction(frame: Frame, grid: Grid, method: str = "nearest") -> Floats:
+    """Solids volume fraction of each cell, shape (nx, nz); see :attr:`clusterdem.Frame.solids` for what it rests on."""
+    return deposit(grid, *grid.places(frame), frame.diameter, method).total(frame.solids) / grid.cell_volume
 
 
 def _ratio(a: Floats, b: Floats) -> Floats:
     return np.divide(a, b, out=np.full_like(a, np.nan), where=b > 0)
 
 
-def maps_of(frame: Frame, grid: Grid, method: str = "nearest", rho_p: float = RHO_P) -> Maps:
+def maps_of(frame: Frame, grid: Grid, method: str = "nearest", fractions: bool = True) -> Maps:
     """All maps of a frame.
 
     Parameters
@@ -189,42 +245,47 @@ def maps_of(frame: Frame, grid: Grid, method: str = "nearest", rho_p: float = RH
         The grid.
     method : str
         As in :func:`deposit`.
-    rho_p : float
-        Density of the primary particles (kg/m³).
+    fractions : bool
+        Whether the solids fraction is among them, which needs to know the primary particles.
 
     Returns
     -------
     dict of str to ndarray, shape (nx, nz)
-        ``mass`` (kg), ``fraction`` (true), ``fraction_paper`` (the paper's scale), ``number_density`` (1/m³),
-        ``mean_diameter`` (m, by number) and, where velocities are known, the mass-weighted ``velocity_x``,
-        ``velocity_z`` (m/s) and ``temperature``, the granular temperature of the motion in the plane,
-        <(v − <v>)²>/2 (m²/s²). Means are NaN in empty cells, the temperature in cells with one cluster.
+        ``mass`` (kg), ``fraction``, ``number_density`` (1/m³), ``mean_diameter`` (m, by number) and, where velocities
+        are known, the mass-weighted ``velocity_x``, ``velocity_z`` (m/s, named after the plane's axes) and
+        ``temperature``, the granular temperature of the motion in the plane, <(v − <v>)²>/2 (m²/s²) about the cell's
+        own mean: of n clusters of one mass it is (n − 1)/n of what more of them would show. Means are NaN in empty
+        cells, the temperature in cells with one cluster.
+
+    Raises
+    ------
+    ArgumentError
+        If the density of the primary particles is needed and not known.
+
+    Examples
+    --------
+    >>> columns = {"x": [0.005, 0.105], "z": [0.01, 0.01], "mass": [4.19e-7] * 2, "diameter": [9.28e-4] * 2}
+    >>> frame = Frame(0, 0.0, Box((0, 0, 0), (0.3, 0.003, 0.6)), {k: np.array(v) for k, v in columns.items()})
+    >>> maps = maps_of(frame.with_density(2000), Grid(frame.box, 30, 30))
+    >>> maps["fraction"].shape, f"{maps['fraction'].max():.3e}", f"{maps['number_density'].max():.2e} 1/m³"
+    ((30, 30), '3.492e-04', '1.67e+06 1/m³')
     """
-    shares = deposit(grid, frame.x, frame.z, frame.diameter, method)
+    shares = deposit(grid, *grid.places(frame), frame.diameter, method)
     mass, count = shares.total(frame.mass), shares.total()
-    fraction = solids_fraction(mass, grid, rho_p)
-    maps: Maps = {
-        "mass": mass,
-        "fraction": fraction,
-        "fraction_paper": PAPER_SCALE * fraction,
-        "number_density": count / grid.cell_volume,
-        "mean_diameter": _ratio(shares.total(frame.diameter), count),
-    }
-    if "vx" in frame and "vz" in frame:
+    maps: Maps = {"mass": mass}
+    if fractions:
+        maps["fraction"] = shares.total(frame.solids) / grid.cell_volume
+    maps["number_density"] = count / grid.cell_volume
+    maps["mean_diameter"] = _ratio(shares.total(frame.diameter), count)
+    if all(f"v{axis}" in frame for axis in grid.plane):
         several = np.bincount(shares.cell, minlength=grid.nx * grid.nz).reshape(grid.shape) > 1
         temperature = np.zeros(grid.shape)
-        for axis in "xz":
+        own_mass = shares.of(frame.mass)
+        for axis in grid.plane:
             velocity = frame[f"v{axis}"]
             mean = _ratio(shares.total(frame.mass * velocity), mass)
-            per_cluster = np.nan_to_num(mean).ravel()[shares.cell]
-            own = velocity if shares.cluster is None else velocity[shares.cluster]
-            shared_mass = frame.mass if shares.cluster is None else frame.mass[shares.cluster]
-            if shares.weight is not None:
-                shared_mass = shared_mass * shares.weight
-            square: Floats = np.bincount(shares.cell, shared_mass * (own - per_cluster) ** 2, grid.nx * grid.nz).astype(
-                np.float64, copy=False
-            )
-            temperature += _ratio(square.reshape(grid.shape), mass) / 2
+            apart = shares.of(velocity) - np.nan_to_num(mean).ravel()[shares.cell]
+            temperature += _ratio(shares.sum(own_mass * apart**2), mass) / 2
             maps[f"velocity_{axis}"] = mean
         maps["temperature"] = np.where(several, temperature, np.nan)
     return maps

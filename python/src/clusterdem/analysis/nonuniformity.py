@@ -7,13 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import ArgumentError
 from ..frame import Floats, Frame
 from .grid import Grid, cell_of
+from .overlap import mean_square_share
 
 
 @dataclass(frozen=True)
 class Uniformity:
-    """Statistics of the cell fractions of one frame.
+    """Statistics of the cell fractions of one frame; NaN of a frame without clusters, but for the extremes: 0.
 
     Parameters
     ----------
@@ -22,11 +24,11 @@ class Uniformity:
     poisson : float
         The deviation that the same clusters would show if each lay anywhere by chance.
     dispersion : float
-        Index of dispersion by mass, (deviation / poisson)²: 1 is chance, above it clustering, below it order.
+        Index of dispersion by volume of solids, (deviation / poisson)²: 1 is chance, above it clustering, below it order.
     number_dispersion : float
         Variance over mean of the number of clusters per cell.
     dense_share : float
-        Share of the mass in cells above twice the mean fraction.
+        Share of the solids in cells above twice the mean fraction.
     """
 
     largest: float
@@ -39,17 +41,19 @@ class Uniformity:
     dense_share: float
 
 
-def measure(fraction: Floats, mass: Floats, x: Floats, z: Floats, grid: Grid) -> Uniformity:
+def measure(fraction: Floats, frame: Frame, grid: Grid, method: str = "nearest") -> Uniformity:
     """Cell statistics of a frame.
 
     Parameters
     ----------
     fraction : ndarray, shape (nx, nz)
         Solids fraction.
-    mass, x, z : ndarray, shape (N,)
-        Masses (kg) and centres (m).
+    frame : Frame
+        The clusters.
     grid : Grid
         The grid.
+    method : str
+        How they were deposited, as in :func:`clusterdem.deposit`.
 
     Returns
     -------
@@ -57,21 +61,30 @@ def measure(fraction: Floats, mass: Floats, x: Floats, z: Floats, grid: Grid) ->
 
     Notes
     -----
-    Clusters thrown at random on M cells give a cell's mass the variance sum(m²) (1 − 1/M) / M, whence the
-    Poisson expectation; merging few large clusters out of many small ones thus counts as size, not as clustering.
+    A cluster of solids volume V thrown at random on M cells gives a cell the variance V² (E[s] − 1/M) / M, where s is
+    the sum over cells of the squares of its shares: 1 where all of it goes to one cell, less where it is spread over
+    several (:func:`clusterdem.analysis.overlap.mean_square_share`). The sum over clusters is the Poisson expectation;
+    merging few large clusters out of many small ones thus counts as size, not as clustering.
     """
+    if not len(frame):
+        unknown = float("nan")
+        return Uniformity(0.0, 0.0, 0.0, 0.0, unknown, unknown, unknown, unknown)
     cells = grid.nx * grid.nz
+    squares = np.ones(len(frame))
+    if method == "overlap":
+        squares = mean_square_share(frame.diameter / 2, grid.spacing, grid.shape, grid.periodic)
     mean, deviation = float(fraction.mean()), float(fraction.std())
-    chance = np.sqrt((mass**2).sum() * (1 - 1 / cells) / cells) * mean * cells / mass.sum()
-    number = np.bincount(cell_of(grid, x, z), minlength=cells)
-    dispersion = (deviation / chance) ** 2 if chance > 0 else np.nan
+    variance = float((frame.solids**2 * (squares - 1 / cells)).sum()) / cells
+    chance = np.sqrt(max(variance, 0.0)) / grid.cell_volume
+    number = np.bincount(cell_of(grid, *grid.places(frame)), minlength=cells)
+    several = cells > 1 and chance > 0
     return Uniformity(
         largest=float(fraction.max()),
         smallest=float(fraction.min()),
         mean=mean,
         deviation=deviation,
         poisson=float(chance),
-        dispersion=float(dispersion),
+        dispersion=float((deviation / chance) ** 2) if several else float("nan"),
         number_dispersion=float(number.var() / (number.mean() * (1 - 1 / cells))) if cells > 1 else float("nan"),
         dense_share=float(fraction[fraction > 2 * mean].sum() / fraction.sum()),
     )
@@ -85,28 +98,31 @@ class Profile:
     ----------
     edges : ndarray, shape (B + 1,)
         Borders of the strips (m).
-    fraction : ndarray, shape (B,)
-        True solids fraction.
+    fraction : ndarray, shape (B,), or None
+        Solids fraction, where it was asked for.
     velocity : ndarray, shape (B,), or None
-        Mass-weighted mean of v_z (m/s).
+        Mass-weighted mean velocity along the plane's second axis (m/s).
     diameter : ndarray, shape (B,)
         Mean diameter by number (m); NaN where no cluster is.
     count : ndarray, shape (B,)
         Clusters.
+    plane : str
+        The axis across, and the one of the velocity.
     """
 
     edges: Floats
-    fraction: Floats
+    fraction: Floats | None
     velocity: Floats | None
     diameter: Floats
     count: Floats
+    plane: str = "xz"
 
 
 def _sums(where: NDArray[np.int64], values: Floats, bins: int) -> Floats:
     return np.bincount(where, values, bins).astype(np.float64, copy=False)
 
 
-def _profile(place: Floats, edges: Floats, volume: float, frame: Frame, rho_p: float) -> Profile:
+def _profile(place: Floats, edges: Floats, frame: Frame, plane: str, fractions: bool) -> Profile:
     bins = len(edges) - 1
     where = np.clip(np.searchsorted(edges, place, side="right") - 1, 0, bins - 1)
     count = np.bincount(where, minlength=bins).astype(np.float64)
@@ -116,20 +132,31 @@ def _profile(place: Floats, edges: Floats, volume: float, frame: Frame, rho_p: f
         out: Floats = np.divide(total, weight, out=np.full(bins, np.nan), where=weight > 0)
         return out
 
-    velocity = mean(_sums(where, frame.mass * frame["vz"], bins), mass) if "vz" in frame else None
+    along = f"v{plane[1]}"
+    velocity = mean(_sums(where, frame.mass * frame[along], bins), mass) if along in frame else None
     diameter = mean(_sums(where, frame.diameter, bins), count)
-    return Profile(edges, mass / (rho_p * volume), velocity, diameter, count)
+    fraction = _sums(where, frame.solids, bins) / (float(np.prod(frame.box.lengths)) / bins) if fractions else None
+    return Profile(edges, fraction, velocity, diameter, count, plane)
 
 
-def lateral(frame: Frame, bins: int = 30, rho_p: float = 2000.0) -> Profile:
-    """Profile across the width x, averaged over y and z."""
-    lx, ly, lz = frame.box.lengths
-    edges = np.linspace(frame.box.lo[0], frame.box.hi[0], bins + 1)
-    return _profile(frame.x, edges, lx * ly * lz / bins, frame, rho_p)
+def lateral(frame: Frame, bins: int = 30, plane: str = "xz", fractions: bool = True) -> Profile:
+    """Profile across the width, the plane's first axis, averaged over the two others."""
+    _check_bins(bins)
+    axis = "xyz".index(plane[0])
+    return _profile(
+        frame[plane[0]], np.linspace(frame.box.lo[axis], frame.box.hi[axis], bins + 1), frame, plane, fractions
+    )
 
 
-def strips(frame: Frame, count: int = 6, rho_p: float = 2000.0) -> Profile:
+def strips(frame: Frame, count: int = 6, plane: str = "xz", fractions: bool = True) -> Profile:
     """Profile from the centre (0) to the wall (half the width), both halves together, in equal strips."""
-    lx, ly, lz = frame.box.lengths
-    distance = np.abs(frame.x - (frame.box.lo[0] + lx / 2))
-    return _profile(distance, np.linspace(0.0, lx / 2, count + 1), lx * ly * lz / count, frame, rho_p)
+    _check_bins(count)
+    axis = "xyz".index(plane[0])
+    half = frame.box.lengths[axis] / 2
+    distance = np.abs(frame[plane[0]] - (frame.box.lo[axis] + half))
+    return _profile(distance, np.linspace(0.0, half, count + 1), frame, plane, fractions)
+
+
+def _check_bins(bins: int) -> None:
+    if bins < 1:
+        raise ArgumentError("bins", f"must be 1 or more, not {bins}")

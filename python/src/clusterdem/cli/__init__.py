@@ -7,6 +7,7 @@ that is asked for is imported, so that ``--version`` and ``--help`` cost no more
 from __future__ import annotations
 
 import argparse
+import logging
 import os
 import signal
 import sys
@@ -59,6 +60,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     words = sys.argv[1:] if arguments is None else list(arguments)
     wanted = next((word for word in words if not word.startswith("-")), None)
     options = parser(wanted).parse_args(words)
+    _print_notes()
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # mpirun passes Ctrl-C on as SIGTERM
     signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs begin with it ignored
     try:
@@ -75,6 +77,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 141
     return 0
+
+
+def _print_notes() -> None:
+    """What the library notes goes to stderr, each note once, and once under mpirun."""
+    log = logging.getLogger("clusterdem")
+    handler = logging.StreamHandler(sys.stderr)
+    handler.setFormatter(logging.Formatter("clusterdem: note: %(message)s"))
+    said: set[str] = set()  # frames may be read twice
+
+    def once(record: logging.LogRecord) -> bool:
+        new = record.getMessage() not in said and os.environ.get("OMPI_COMM_WORLD_RANK", "0") == "0"
+        said.add(record.getMessage())
+        return new
+
+    handler.addFilter(once)
+    log.handlers[:] = [handler]
+    log.propagate = False
 
 
 def _in_options(error: InputError | ArgumentError) -> str:

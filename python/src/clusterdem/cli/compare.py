@@ -1,7 +1,9 @@
 """A run's clusters, sizes and densest cells beside the paper's numbers and the prototype's.
 
-Prints a table of N(t), mean diameter, the paper's four size classes (percent of clusters by number) and the largest
-cell fraction, each with the difference to the published value and to reading A of the model.
+Prints a table of the solids in the domain, N(t), mean diameter, the paper's four size classes (percent of clusters by
+number) and the largest cell fraction, each with the difference to the published value and to reading A of the model.
+Frames count for the time that they are nearest to, within 1 % of it. Where the domain holds less solids than the case,
+numbers of clusters are scaled to the case's.
 """
 
 from __future__ import annotations
@@ -13,8 +15,8 @@ from pathlib import Path
 from ..errors import ArgumentError, InputError
 from ..io.output import write_text
 from ..io.parallel import over_frames
+from ..published.cases import CASES
 from ..published.compare import as_text, compare, moment_of
-from ..published.numbers import CASES
 from .common import add_density, add_dumps, finish, tell
 
 
@@ -33,7 +35,7 @@ def run(options: argparse.Namespace) -> None:
     unknown = [name for name in options.rows if name not in known]
     if unknown:
         raise ArgumentError("rows", f"{options.case} has no {unknown[0]!r}; it has {', '.join(known)}")
-    found = over_frames(options.dumps, lambda frame: moment_of(frame, options.rho), (), options.dt)
+    found = over_frames(options.dumps, lambda frame: moment_of(frame), ("n", "type"), options.dt, options.rho)
     if found.root and found.heads:
         for head in found.heads:
             if math.isnan(head.time):

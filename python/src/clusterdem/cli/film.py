@@ -11,13 +11,14 @@ from pathlib import Path
 
 import numpy as np
 
-from ..analysis.grid import Grid, check_resolution, maps_of
+from ..analysis.grid import check_resolution, solids_fraction
 from ..frame import Frame
 from ..io.parallel import over_frames
 from ..io.reader import read_dumps
 from ..plot.film import Picture, Scales, picture, write_film
 from ..plot.scatter import colouring_of, quantity
-from .common import add_density, add_dumps, add_grid, finish, positive, tell
+from ..published.cases import SCALE
+from .common import add_density, add_dumps, add_grid, columns_for, finish, grid_for, paper_case, positive, tell
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -25,7 +26,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_grid(parser)
     add_density(parser)
     parser.add_argument(
-        "--colour", choices=("diameter", "vz", "vx", "speed"), default="diameter", help="what colours the clusters"
+        "--colour",
+        choices=("diameter", "vx", "vy", "vz", "speed"),
+        default="diameter",
+        help="what colours the clusters",
     )
     parser.add_argument("--rate", type=positive, default=10.0, metavar="N", help="pictures per second (default 10)")
     parser.add_argument(
@@ -37,26 +41,26 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> None:
+    columns = columns_for(options.plane, "vx", "vy", "vz")
+
     def work(frame: Frame) -> tuple[float, float, float]:
-        grid = Grid(frame.box, *options.grid)
+        grid = grid_for(options, frame)
         check_resolution(frame, grid)
         values = quantity(frame, options.colour)
-        return float(values.min()), float(values.max()), float(maps_of(frame, grid, options.deposit)["mass"].max())
+        densest = float(solids_fraction(frame, grid, options.deposit).max())
+        return float(values.min(initial=np.inf)), float(values.max(initial=-np.inf)), densest
 
-    found = over_frames(options.dumps, work, ("vx", "vz"), options.dt)
+    found = over_frames(options.dumps, work, columns, options.dt, options.rho, "a film needs")
     if found.root and found.heads:
-        grid = Grid(found.heads[0].box, *options.grid)
-        low, high, mass = np.array(found.values).T
-        scales = Scales(
-            colouring_of(float(low.min()), float(high.max()), options.colour),
-            options.colour,
-            float(mass.max()) / (options.rho * grid.cell_volume),
-        )
+        grid = grid_for(options, found.heads[0])
+        low, high, densest = np.array(found.values).T
+        colours = colouring_of(float(low.min()), float(high.max()), options.colour)
+        scales = Scales(colours, options.colour, float(densest.max()), SCALE if paper_case(options.dumps) else None)
         last = found.heads[-1]
 
         def pictures() -> Iterator[Picture]:
-            for frame in read_dumps(options.dumps, ("vx", "vz"), dt=options.dt):
-                yield picture(frame, grid, scales, options.deposit, options.rho, options.dpi)
+            for frame in read_dumps(options.dumps, columns, dt=options.dt, density=options.rho):
+                yield picture(frame, grid, scales, options.deposit, options.dpi)
                 if (frame.path, frame.step) == (last.path, last.step):
                     return
 

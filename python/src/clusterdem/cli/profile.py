@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..analysis.correlation import pair_correlation
 from ..analysis.nonuniformity import Profile, lateral, strips
 from ..frame import Floats, Frame
 from ..io.output import write_csv
@@ -18,7 +19,17 @@ from ..io.parallel import over_frames
 from ..plot.maps import panels_of
 from ..plot.style import save
 from ..plot.times import draw_lateral, draw_pair_correlation
-from .common import add_density, add_dumps, finish, tell
+from .common import (
+    add_density,
+    add_dumps,
+    add_plane,
+    columns_for,
+    finish,
+    particles_of,
+    positive,
+    say_particles,
+    tell,
+)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -26,6 +37,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_density(parser)
     parser.add_argument(
         "--bins", type=int, default=30, choices=range(1, 1001), metavar="N", help="strips across x (default 30)"
+    )
+    add_plane(parser)
+    parser.add_argument(
+        "--rmax", type=positive, metavar="MM", help="largest distance of g(r) (mm; default: by the clusters' sizes)"
     )
     parser.add_argument("--no-gr", action="store_true", help="leave out g(r), the slowest part")
     parser.add_argument(
@@ -36,21 +51,36 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def profile_rows(head: Frame, profile: Profile) -> list[tuple[float, ...]]:
     """Rows of a profile's CSV file (SI)."""
     velocity = profile.velocity if profile.velocity is not None else np.full(len(profile.count), np.nan)
-    columns = (profile.edges[:-1], profile.edges[1:], profile.fraction, velocity, profile.diameter, profile.count)
+    nothing = np.full(len(profile.count), np.nan)
+    fraction = nothing if profile.fraction is None else profile.fraction
+    columns = (profile.edges[:-1], profile.edges[1:], fraction, velocity, profile.diameter, profile.count)
     return [(head.step, head.time, *(float(v) for v in row)) for row in zip(*columns)]
 
 
 def run(options: argparse.Namespace) -> None:
-    def work(frame: Frame) -> tuple[Profile, Profile, tuple[Floats, Floats] | None]:
-        from ..analysis.correlation import pair_correlation
+    columns = columns_for(options.plane, "x", "y", "z")
 
-        correlation = None if options.no_gr else pair_correlation(frame)
-        return lateral(frame, options.bins, options.rho), strips(frame, rho_p=options.rho), correlation
+    def work(frame: Frame) -> tuple[Profile, Profile, tuple[Floats, Floats] | None, str | None]:
+        correlation = None
+        if not options.no_gr:
+            correlation = pair_correlation(frame, options.rmax and 1e-3 * options.rmax, plane=options.plane)
+        across = lateral(frame, options.bins, options.plane), strips(frame, plane=options.plane)
+        return (*across, correlation, particles_of(frame))
 
-    found = over_frames(options.dumps, work, ("y", "vz"), options.dt)
+    found = over_frames(options.dumps, work, columns, options.dt, options.rho)
     if found.root and found.heads:
         out: Path = options.out
-        heading = ["step", "time", "from", "to", "fraction", "velocity_z", "mean_diameter", "clusters"]
+        say_particles(value[3] for value in found.values)
+        heading = [
+            "step",
+            "time",
+            "from",
+            "to",
+            "fraction",
+            f"velocity_{options.plane[1]}",
+            "mean_diameter",
+            "clusters",
+        ]
         lateral_profiles = [value[0] for value in found.values]
         for name, profiles in (("lateral", lateral_profiles), ("strips", [value[1] for value in found.values])):
             rows = [row for head, profile in zip(found.heads, profiles) for row in profile_rows(head, profile)]

@@ -10,13 +10,13 @@ from ..frame import Frame
 from ..io.parallel import over_frames
 from ..plot.scatter import draw_scatter
 from ..plot.style import save
-from .common import add_dumps, finish, tell
+from .common import add_dumps, add_plane, columns_for, finish, tell
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_dumps(parser)
     parser.add_argument(
-        "--colour", choices=("diameter", "vz", "vx", "speed"), default="diameter", help="what colours the discs"
+        "--colour", choices=("diameter", "vx", "vy", "vz", "speed"), default="diameter", help="what colours the discs"
     )
     parser.add_argument(
         "--window",
@@ -25,6 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar=("X0", "X1", "Z0", "Z1"),
         help="window (m; default: the middle of the box)",
     )
+    add_plane(parser)
     parser.add_argument(
         "--out", type=Path, default=Path("scatter"), metavar="DIR", help="folder for the figures (default scatter)"
     )
@@ -35,10 +36,14 @@ def run(options: argparse.Namespace) -> None:
     if window is not None and not (window[0] < window[1] and window[2] < window[3]):
         raise ArgumentError("window", "needs X0 < X1 and Z0 < Z1")
 
-    def work(frame: Frame) -> Path:
-        return save(draw_scatter(frame, options.colour, window), options.out / f"scatter.{frame.step:010d}.png")
+    columns = columns_for(options.plane, "vx", "vy", "vz")
 
-    found = over_frames(options.dumps, work, ("vx", "vz"), options.dt)
+    def work(frame: Frame) -> Path:
+        return save(
+            draw_scatter(frame, options.colour, window, options.plane), options.out / f"scatter.{frame.step:010d}.png"
+        )
+
+    found = over_frames(options.dumps, work, columns, options.dt)
     if found.root:
         tell(*found.values)
     finish(found)

@@ -8,9 +8,6 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-import numpy as np
-import polars as pl
-
 from ..frame import Frame
 from ..io.output import atomic
 from ..io.parallel import over_frames
@@ -25,22 +22,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def as_table(frame: Frame) -> pl.DataFrame:
-    """A frame as a polars table; whole numbers as integers, the rest in SI units as float64."""
-    columns: dict[str, object] = {
-        "step": np.full(len(frame), frame.step, np.int64),
-        "time": np.full(len(frame), frame.time),
-    }
-    for name, values in frame.columns.items():
-        columns[name] = np.rint(values).astype(np.int64) if name in ("id", "type", "n") else values
-    return pl.DataFrame(columns)
-
-
 def run(options: argparse.Namespace) -> None:
     def work(frame: Frame) -> Path:
         path: Path = options.out / f"clusters.{frame.step:010d}.{options.format}"
         with atomic(path) as name:
-            table = as_table(frame)
+            table = frame.to_polars()
             if options.format == "csv":
                 table.write_csv(name)
             else:

@@ -43,7 +43,14 @@ class BinarySource:
     def __init__(self, stream: BinaryIO, path: str) -> None:
         self._stream = stream
         self._blocks = 0
+        self._size = stream.seek(0, 2)
+        stream.seek(0)
         self.path = path
+
+    @property
+    def _left(self) -> int:
+        """Bytes that have not been read."""
+        return self._size - self._stream.tell()
 
     def _bytes(self, count: int) -> bytes:
         data = self._stream.read(count)
@@ -72,8 +79,8 @@ class BinarySource:
             rule = f"revision {revision} of the binary format is not known: convert it by LAMMPS' tool binary2txt"
             raise InputError(self.path, rule)
         step, count = self._numbers("qq")
-        if not 0 < count <= MAX_CLUSTERS or step < 0:
-            raise InputError(self.path, f"{count} clusters at step {step}: both must be positive and sane")
+        if not 0 <= count <= MAX_CLUSTERS or step < 0:
+            raise InputError(self.path, f"{count} clusters at step {step}: both must be 0 or more, and sane")
         (triclinic,) = self._numbers("i")
         if triclinic:
             raise InputError(self.path, "only an orthogonal box can be read")
@@ -95,6 +102,9 @@ class BinarySource:
         (self._blocks,) = self._numbers("i")
         if len(names) != width or width < 1:
             raise InputError(self.path, f"{width} columns with {len(names)} names: the file is damaged")
+        if 8 * width * count > self._left:
+            rule = f"step {step} declares {count:,} rows of {width} numbers, the file holds {self._left:,} bytes more"
+            raise InputError(self.path, rule)
         periodic = [boundary[2 * axis : 2 * axis + 2] == (0, 0) for axis in range(3)]
         box = Box((lo[0], lo[1], lo[2]), (hi[0], hi[1], hi[2]), (periodic[0], periodic[1], periodic[2]))
         return Header(step, time, count, box, names, 0, 0)
@@ -107,6 +117,8 @@ class BinarySource:
         for _ in range(self._blocks):
             (numbers,) = self._numbers("i")
             rows, rest = divmod(numbers, width)
+            if 8 * numbers > self._left:
+                raise InputError(self.path, "the file ends inside a frame")
             if numbers < 0 or rest or at + rows > header.count:
                 raise InputError(self.path, f"a block of {numbers} numbers does not fit the frame: the file is damaged")
             if wanted:
@@ -119,7 +131,7 @@ class BinarySource:
         if at != header.count:
             raise InputError(self.path, f"the frame holds {at} of its {header.count} rows")
         for column, index in zip(columns, wanted):
-            if not np.abs(column).max() < LARGEST:  # also where a value is NaN
+            if not np.abs(column).max(initial=0.0) < LARGEST:  # also where a value is NaN
                 rule = f"column {index + 1} ({header.names[index]}) must be finite and below {LARGEST:g}"
                 raise InputError(self.path, rule)
         return columns

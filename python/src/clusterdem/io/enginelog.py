@@ -33,7 +33,9 @@ class EngineLog:
     script : list of str
         The input as the log echoes it.
     variables : dict of str to str
-        Variables of the input, the values as last echoed.
+        Variables of the input, as they are defined there: the command line may have set them before.
+    filled : dict of str to str
+        Values that really ran, where the log echoes a line before and after a variable is filled in.
     """
 
     version: str = ""
@@ -46,6 +48,7 @@ class EngineLog:
     warnings: list[str] = field(default_factory=list)
     script: list[str] = field(default_factory=list)
     variables: dict[str, str] = field(default_factory=dict)
+    filled: dict[str, str] = field(default_factory=dict)
 
 
 def read_log(path: str | Path) -> EngineLog:
@@ -63,7 +66,9 @@ def read_log(path: str | Path) -> EngineLog:
     log = EngineLog()
     in_table = False
     last = 0.0  # core-seconds of the latest loop
-    for line in text.splitlines():
+    lines = text.splitlines()
+    log.filled = _filled(lines)
+    for line in lines:
         words = line.split()
         if not log.version and line.startswith(("LAMMPS (", "LIGGGHTS")):
             log.version = line.strip()
@@ -92,3 +97,21 @@ def read_log(path: str | Path) -> EngineLog:
         elif not in_table and re.match(r"[a-z_]+(\s|$)", line):
             log.script.append(line.rstrip())
     return log
+
+
+REFERENCE = re.compile(r"\$\{(\w+)\}|\$([A-Za-z])")
+
+
+def _filled(lines: list[str]) -> dict[str, str]:
+    """Values of variables, from pairs of lines: one with ``${name}``, the next with its value in that place."""
+    values: dict[str, str] = {}
+    for before, after in zip(lines, lines[1:]):
+        found = REFERENCE.search(before)
+        if found is None or not after.startswith(before[: found.start()]):
+            continue
+        rest = after[found.start() :]
+        follows = re.split(r"[$#]", before[found.end() :])[0].rstrip()
+        end = rest.find(follows) if follows else len(rest.rstrip()) if found.end() == len(before.rstrip()) else -1
+        if end > 0:
+            values[found[1] or found[2]] = rest[:end].strip()
+    return values

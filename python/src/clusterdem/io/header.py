@@ -80,7 +80,7 @@ def _box(source: LineSource, flags: list[str]) -> Box:
                 source.path, f"the box must be 1e-6 to 1e6 m long along {axis}, lower bound first", source.line
             )
         bounds.append((lo, hi))
-    periodic = [flag == "pp" for flag in boundary] or [True, True, True]
+    periodic = [flag == "pp" for flag in boundary] or [False, False, False]  # nothing says that it repeats
     (xlo, xhi), (ylo, yhi), (zlo, zhi) = bounds
     return Box((xlo, ylo, zlo), (xhi, yhi, zhi), (periodic[0], periodic[1], periodic[2]))
 
@@ -139,9 +139,8 @@ def read_header(source: LineSource) -> Header | None:
                 raise InputError(source.path, "the timestep must be 0 or more and below 2^63", source.line)
         elif name == "NUMBER OF ATOMS":
             count = _integer(source, "the number of atoms")
-            if not 0 < count <= MAX_CLUSTERS:
-                rule = "a frame without clusters" if count == 0 else "the number of atoms must be positive and sane"
-                raise InputError(source.path, rule, source.line)
+            if not 0 <= count <= MAX_CLUSTERS:
+                raise InputError(source.path, "the number of atoms must be 0 or more, and sane", source.line)
         elif words[:2] == ["BOX", "BOUNDS"]:
             box = _box(source, words[2:])
         elif words[:1] == ["ATOMS"]:

@@ -5,15 +5,16 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
+import numpy as np
 from tqdm import tqdm
 
 from ..errors import ArgumentError, InputError
 from ..frame import Frame
-from .reader import check_follows, natural_order, read_file
+from .reader import check_same_box, is_later, natural_order, read_file
 
 T = TypeVar("T")
 LAUNCHED = ("OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK")
@@ -40,7 +41,7 @@ class Gathered(Generic[T]):
         The frames without their columns.
     values : list
         What the work returned for each.
-    error : InputError or None
+    error : InputError or ArgumentError or None
         What ended the reading early; the frames before it are kept.
     root : bool
         Whether this is the rank that holds them and writes what concerns all frames.
@@ -48,7 +49,7 @@ class Gathered(Generic[T]):
 
     heads: list[Frame] = field(default_factory=list)
     values: list[T] = field(default_factory=list)
-    error: InputError | None = None
+    error: InputError | ArgumentError | None = None
     root: bool = True
 
 
@@ -57,6 +58,8 @@ def over_frames(
     work: Callable[[Frame], T],
     columns: Collection[str] | None = None,
     dt: float | None = None,
+    density: float | None = None,
+    one_box: str = "",
 ) -> Gathered[T]:
     """Apply ``work`` to each frame, holding one frame per rank at a time.
 
@@ -66,8 +69,10 @@ def over_frames(
         Dump files; taken in natural order.
     work : callable
         Turns a frame into something small that can be sent between ranks.
-    columns, dt
-        As in :func:`clusterdem.reader.read_file`.
+    columns, dt, density
+        As in :func:`clusterdem.read_file`.
+    one_box : str
+        Who needs one box for all frames, such as "maps need"; empty if nobody does.
 
     Returns
     -------
@@ -78,20 +83,23 @@ def over_frames(
     rank, size = (comm.rank, comm.size) if comm else (0, 1)
     files = natural_order(paths)
     found: list[tuple[tuple[int, int], Frame, T]] = []
-    failed: tuple[tuple[int, int], InputError] | None = None
+    failed: tuple[tuple[int, int], InputError | ArgumentError] | None = None
     bar = tqdm(files, unit="file", disable=rank > 0 or not sys.stderr.isatty(), leave=False, file=sys.stderr)
     before: Frame | None = None
     for number, path in enumerate(bar):
         key = (number, -1)
         try:
             own = (rank - number) % size
-            for index, frame in enumerate(read_file(path, columns, share=(own, size), dt=dt)):
+            for index, frame in enumerate(read_file(path, columns, share=(own, size), dt=dt, density=density)):
                 key = (number, own + index * size)
                 if before is not None:
-                    check_follows(before, frame)
-                before = replace(frame, columns={})
+                    if not is_later(before, frame):
+                        continue
+                    if one_box:
+                        check_same_box(before, frame, one_box)
+                before = frame.head
                 found.append((key, before, work(frame)))
-        except InputError as error:
+        except (InputError, ArgumentError) as error:
             failed = ((number, key[1] + 1), error)
             break
         except BaseException as error:
@@ -113,7 +121,10 @@ def over_frames(
             break
         if result.heads:
             try:
-                check_follows(result.heads[-1], head)
+                if not is_later(result.heads[-1], head):
+                    continue
+                if one_box:
+                    check_same_box(result.heads[-1], head, one_box)
             except InputError as error:
                 result.error = error
                 break
@@ -126,3 +137,14 @@ def over_frames(
     elif result.error is not None and not result.heads:
         raise result.error
     return result
+
+
+def size_range(dumps: Sequence[str | Path]) -> tuple[float, float]:
+    """Smallest and largest diameter of all frames (m), on every rank; infinity and 0 where there are no clusters."""
+    found = over_frames(
+        dumps, lambda frame: (float(frame.diameter.min(initial=np.inf)), float(frame.diameter.max(initial=0.0))), ()
+    )
+    low, high = min((low for low, _ in found.values), default=np.inf), max((up for _, up in found.values), default=0.0)
+    comm = communicator()
+    known: tuple[float, float] = comm.bcast((low, high)) if comm else (low, high)
+    return known

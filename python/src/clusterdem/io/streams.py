@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import gzip
 import os
 import zlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import IO, cast
+from typing import IO, Any, cast
 
 import zstandard
 
@@ -16,6 +15,9 @@ from ..errors import InputError
 
 CHUNK = 1 << 22
 """Bytes read at a time (compressed files, and what is too large to be read at once)."""
+
+PIECE = 1 << 14
+"""Compressed bytes unpacked at a time: what a damaged place can take along of what lies before it."""
 
 AT_ONCE = 1 << 25
 """A plain file up to this many bytes is read at once: one frame, as a rule."""
@@ -29,6 +31,58 @@ def find(text: bytes, mark: bytes, start: int) -> int:
     return at
 
 
+class Broken(Exception):
+    """Compressed data that are cut or damaged."""
+
+
+class Unpacked:
+    """A .gz or .zst stream that gives all that can be unpacked before it says that the rest is broken.
+
+    Parameters
+    ----------
+    raw : binary file
+        The compressed bytes.
+    begin : callable
+        Makes an unpacker; a file may hold several packed parts, one after the other.
+    kind : str
+        For messages.
+    """
+
+    def __init__(self, raw: IO[bytes], begin: Callable[[], Any], kind: str) -> None:
+        self._raw = raw
+        self._begin = begin
+        self._kind = kind
+        self._unpacker = begin()
+        self._rest = b""
+        self._touched = False
+        self._error: Broken | None = None
+
+    def read(self, size: int) -> bytes:
+        """Some ``size`` bytes, more or less; none at the end."""
+        parts: list[bytes] = []
+        length = 0
+        while length < size and self._error is None:
+            piece = self._rest or self._raw.read(PIECE)
+            self._rest = b""
+            if not piece:
+                if self._touched and not self._unpacker.eof:
+                    self._error = Broken(f"the {self._kind} data are cut at byte {self._raw.tell():,}")
+                break
+            if self._unpacker.eof:
+                self._unpacker = self._begin()
+            try:
+                self._touched = True
+                parts.append(self._unpacker.decompress(piece))
+            except (zlib.error, zstandard.ZstdError) as error:
+                self._error = Broken(f"the {self._kind} data are damaged before byte {self._raw.tell():,}: {error}")
+                break
+            self._rest = self._unpacker.unused_data if self._unpacker.eof else b""
+            length += len(parts[-1])
+        if not length and self._error is not None:
+            raise self._error
+        return b"".join(parts)
+
+
 class LineSource:
     """Reads single lines and blocks of lines from a byte stream.
 
@@ -40,6 +94,13 @@ class LineSource:
         Name for messages.
     chunk : int
         Bytes to read at a time; -1 for all at once.
+
+    Attributes
+    ----------
+    line : int
+        Lines read so far.
+    broken : str
+        Why nothing comes any more, where that is not the end of the file.
     """
 
     def __init__(self, stream: IO[bytes], path: str, chunk: int = CHUNK) -> None:
@@ -49,12 +110,15 @@ class LineSource:
         self._at = 0
         self.path = path
         self.line = 0
+        self.broken = ""
 
     def _more(self) -> bytes:
+        """What comes next; nothing at the end of the file, or where it is cut or damaged, which ``broken`` then tells."""
         try:
             return self._stream.read(self._chunk)
-        except (OSError, EOFError, zlib.error, zstandard.ZstdError) as error:
-            raise InputError(self.path, f"cannot be read to its end: {error}", self.line) from error
+        except (OSError, Broken) as error:
+            self.broken = f"cannot be read to its end: {error}"
+            return b""
 
     def readline(self) -> bytes:
         """The next line without its end-of-line bytes; ``b""`` and no advance at the end of the file."""
@@ -139,11 +203,14 @@ def open_lines(path: str | Path) -> Iterator[LineSource]:
             raise InputError(name, f"cannot be read: {error.strerror}") from error
         chunk = CHUNK
         if magic[:2] == b"\x1f\x8b":
-            stream: IO[bytes] = cast(IO[bytes], gzip.GzipFile(fileobj=raw))
+            packed = Unpacked(raw, lambda: zlib.decompressobj(31), "gzip")
+            stream: IO[bytes] = cast(IO[bytes], packed)
         elif magic == b"\x28\xb5\x2f\xfd":
-            reader = zstandard.ZstdDecompressor().stream_reader(raw, read_across_frames=True)
-            stream = cast(IO[bytes], reader)
+            stream = cast(IO[bytes], Unpacked(raw, lambda: zstandard.ZstdDecompressor().decompressobj(), "zstd"))
         else:
             stream = raw
             chunk = -1 if os.fstat(raw.fileno()).st_size <= AT_ONCE else CHUNK
-        yield LineSource(stream, name, chunk)
+        source = LineSource(stream, name, chunk)
+        yield source
+        if source.broken:
+            raise InputError(name, source.broken, source.line)

@@ -14,7 +14,7 @@ from matplotlib.colors import Normalize
 from numpy.typing import NDArray
 from PIL import Image
 
-from ..analysis.grid import PAPER_SCALE, Grid, maps_of
+from ..analysis.grid import Grid, solids_fraction
 from ..errors import InputError
 from ..frame import Frame
 from ..io.output import atomic
@@ -36,30 +36,35 @@ class Scales:
         What colours them.
     fraction : float
         Top of the map's scale (true solids fraction).
+    published : float or None
+        A published scale that is said beside it.
     """
 
     discs: Colouring
     by: str
     fraction: float
+    published: float | None = None
 
 
-def picture(frame: Frame, grid: Grid, scales: Scales, method: str, rho_p: float, dpi: int) -> Picture:
+def picture(frame: Frame, grid: Grid, scales: Scales, method: str, dpi: int) -> Picture:
     """One picture of the film, shape (height, width, 3), both even."""
-    fraction = 100 * maps_of(frame, grid, method, rho_p)["fraction"]
-    lx, _, lz = frame.box.lengths
+    fraction = 100 * solids_fraction(frame, grid, method)
+    (lx, lz), (first, second) = grid.sides, grid.edges
     with styled():
         figure = new_figure(6.4, min(max(2.15 * lz / lx + 0.9, 2.4), 8.0), layout="compressed")
         left, right = figure.subplots(1, 2, sharey=True)
-        discs = draw_discs(left, frame, scales.discs, scales.by, whole(frame))
-        left.set_ylabel("z (mm)")
+        discs = draw_discs(left, frame, scales.discs, scales.by, whole(frame, grid.plane), grid.plane)
+        left.set_ylabel(f"{grid.plane[1]} (mm)")
         colour_bar(figure, discs, left, scales.discs)
         image = right.pcolormesh(
-            1e3 * grid.x_edges, 1e3 * grid.z_edges, fraction.T, norm=Normalize(0, 100 * scales.fraction), cmap="viridis"
+            1e3 * first, 1e3 * second, fraction.T, norm=Normalize(0, 100 * scales.fraction or 1.0), cmap="viridis"
         )
         right.set_aspect("equal")
-        right.set_xlabel("x (mm)")
+        right.set_xlabel(f"{grid.plane[0]} (mm)")
         bar = figure.colorbar(image, ax=right, aspect=30, pad=0.02)
-        bar.set_label(f"true solids fraction (%); paper's scale: ×{PAPER_SCALE:g}")
+        beside = "" if scales.published is None else f"; paper's scale: ×{scales.published:g}"
+        words = f"\nwith {frame.particles.words}" if len(frame) else ""
+        bar.set_label(f"true solids fraction (%){beside}{words}", fontsize=6)
         figure.suptitle(f"{frame.label}    {len(frame):,} clusters")
         figure.set_dpi(dpi)
         canvas = figure.canvas

@@ -11,7 +11,7 @@ from matplotlib.colors import Normalize, TwoSlopeNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from ..analysis.grid import PAPER_SCALE, Grid
+from ..analysis.grid import Grid
 from ..frame import Floats
 from .style import WIDTH, new_figure, styled
 
@@ -31,15 +31,24 @@ class Field:
     clipped: bool = False
 
 
-FIELDS = (
-    Field("fraction", "solids volume fraction, true (%)", 100.0),
-    Field("number_density", "clusters per volume (1/cm³)", 1e-6),
-    Field("mean_diameter", "mean cluster diameter (µm)", 1e6, "cividis", from_zero=False),
-    Field("velocity_z", "solids velocity $v_z$ (m/s)", from_zero=False, diverging=True, clipped=True),
-    Field("velocity_x", "solids velocity $v_x$ (m/s)", from_zero=False, diverging=True, clipped=True),
-    Field("temperature", "granular temperature (m²/s²)", 1.0, "magma", clipped=True),
-)
-"""Every kind of map."""
+def fields_of(plane: str) -> list[Field]:
+    """Every kind of map in a plane."""
+    return [
+        Field("fraction", "solids volume fraction, true (%)", 100.0),
+        Field("number_density", "clusters per volume (1/cm³)", 1e-6),
+        Field("mean_diameter", "mean cluster diameter (µm)", 1e6, "cividis", from_zero=False),
+        *(
+            Field(f"velocity_{axis}", f"solids velocity $v_{axis}$ (m/s)", 1.0, "viridis", False, True, True)
+            for axis in reversed(plane)
+        ),
+        Field(
+            "temperature",
+            "granular temperature about the cell's mean\n(n clusters: (n−1)/n of it; m²/s²)",
+            1.0,
+            "magma",
+            clipped=True,
+        ),
+    ]
 
 
 def panels_of(count: int, most: int = MOST_PANELS) -> list[int]:
@@ -64,7 +73,14 @@ def _scale(values: Floats, field: Field) -> tuple[Normalize, str]:
     return Normalize(low, high if high > low else low + 1.0), field.colours
 
 
-def draw_maps(maps: Sequence[Floats], labels: Sequence[str], grid: Grid, field: Field) -> Figure:
+def draw_maps(
+    maps: Sequence[Floats],
+    labels: Sequence[str],
+    grid: Grid,
+    field: Field,
+    scale: float | None = None,
+    words: str = "",
+) -> Figure:
     """Panels over time with one colour scale.
 
     Parameters
@@ -77,6 +93,10 @@ def draw_maps(maps: Sequence[Floats], labels: Sequence[str], grid: Grid, field: 
         The grid.
     field : Field
         What they show.
+    scale : float, optional
+        A published scale that stands beside the true solids fraction: so many times as large.
+    words : str
+        What solids fractions rest on.
 
     Returns
     -------
@@ -84,7 +104,7 @@ def draw_maps(maps: Sequence[Floats], labels: Sequence[str], grid: Grid, field: 
     """
     stack = np.stack([np.asarray(m) for m in maps]) * field.factor
     norm, colours = _scale(stack, field)
-    lx, _, lz = grid.box.lengths
+    (lx, lz), (first, second) = grid.sides, grid.edges
     with styled():
         panel = min((WIDTH - 1.75) / max(len(maps), 2), 1.6)
         width = 1.75 + panel * len(maps)
@@ -92,30 +112,30 @@ def draw_maps(maps: Sequence[Floats], labels: Sequence[str], grid: Grid, field: 
         axes = figure.subplots(1, len(maps), sharex=True, sharey=True, squeeze=False)[0]
         image: Any = None
         for axis, values, label in zip(axes, stack, labels):
-            image = axis.pcolormesh(
-                1e3 * grid.x_edges, 1e3 * grid.z_edges, values.T, norm=norm, cmap=colours, rasterized=True
-            )
+            image = axis.pcolormesh(1e3 * first, 1e3 * second, values.T, norm=norm, cmap=colours, rasterized=True)
             axis.set_aspect("equal")
             axis.set_title(label)
-            axis.set_xlabel("x (mm)")
+            axis.set_xlabel(f"{grid.plane[0]} (mm)")
             axis.tick_params(direction="out", length=2.5)
-            axis.set_xticks([1e3 * (grid.box.lo[0] + part * lx) for part in (0, 0.5, 1)])
+            axis.set_xticks([1e3 * (grid.corner[0] + part * lx) for part in (0, 0.5, 1)])
             for side in ("top", "right"):
                 axis.spines[side].set_visible(True)
             axis.set_facecolor("0.85")
-        axes[0].set_ylabel("z (mm)")
+        axes[0].set_ylabel(f"{grid.plane[1]} (mm)")
         over = bool(np.nanmax(stack, initial=-np.inf) > norm.vmax) if norm.vmax is not None else False
         under = bool(np.nanmin(stack, initial=np.inf) < norm.vmin) if norm.vmin is not None else False
         extend = {(False, False): "neither", (True, False): "max", (False, True): "min", (True, True): "both"}
         bar = figure.colorbar(image, ax=list(axes), extend=extend[(over, under)], aspect=25, pad=0.02, fraction=0.06)
         bar.outline.set_linewidth(0.5)
-        if field.name == "fraction":
+        if field.name == "fraction" and words:
+            figure.supxlabel(f"with {words}", fontsize=6)
+        if field.name == "fraction" and scale is not None:
             bar.ax.yaxis.set_ticks_position("left")
-            second = bar.ax.secondary_yaxis(
-                "right", functions=(lambda v: PAPER_SCALE * np.asarray(v), lambda v: np.asarray(v) / PAPER_SCALE)
+            right = bar.ax.secondary_yaxis(
+                "right", functions=(lambda v: scale * np.asarray(v), lambda v: np.asarray(v) / scale)
             )
-            second.set_ylabel("solids volume fraction (%)")
-            for place, side, text in ((-0.3, "right", "true"), (1.3, "left", "paper's\nscale, ×10")):
+            right.set_ylabel("solids volume fraction (%)")
+            for place, side, text in ((-0.3, "right", "true"), (1.3, "left", f"paper's\nscale, ×{scale:g}")):
                 bar.ax.text(place, 1.03, text, ha=side, va="bottom", fontsize=7, transform=bar.ax.transAxes)
         else:
             bar.set_label(field.label)

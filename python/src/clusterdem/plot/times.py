@@ -9,10 +9,9 @@ from matplotlib import colormaps
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from ..analysis.grid import PAPER_SCALE
 from ..analysis.nonuniformity import Profile, Uniformity
 from ..frame import Floats
-from .sizes import time_axis
+from .sizes import time_axis, top
 from .style import COLOURS, WIDTH, new_figure, styled
 
 
@@ -20,8 +19,10 @@ def _shades(count: int) -> NDArray[np.float64]:
     return np.asarray(colormaps["viridis"](np.linspace(0.0, 0.88, count)))
 
 
-def draw_uniformity(times: Floats, steps: NDArray[np.int64], found: Sequence[Uniformity]) -> Figure:
-    """Extreme cells, deviation against chance, and the dense cells' share of mass, over time."""
+def draw_uniformity(
+    times: Floats, steps: NDArray[np.int64], found: Sequence[Uniformity], scale: float | None = None
+) -> Figure:
+    """Extreme cells (beside them a published scale), deviation against chance, the dense cells' share, over time."""
     t, label = time_axis(times, steps)
     with styled():
         figure = new_figure(WIDTH, 2.5)
@@ -30,24 +31,27 @@ def draw_uniformity(times: Floats, steps: NDArray[np.int64], found: Sequence[Uni
             values = [100 * getattr(u, name) for u in found]
             extremes.plot(t, values, mark + "-", color=COLOURS[colour], label=name, markersize=3)
         extremes.set_ylabel("cell solids fraction, true (%)")
-        extremes.set_ylim(0, 130 * max(u.largest for u in found))
+        extremes.set_ylim(0, 130 * top([u.largest for u in found]))
         extremes.legend(
             frameon=False, ncols=3, loc="upper left", columnspacing=0.6, handlelength=0.8, handletextpad=0.3
         )
-        right = extremes.secondary_yaxis(
-            "right", functions=(lambda v: PAPER_SCALE * np.asarray(v), lambda v: np.asarray(v) / PAPER_SCALE)
-        )
-        right.set_ylabel("paper's scale, ×10 (%)")
-        dispersion.plot(t, [u.dispersion for u in found], "o-", color=COLOURS[0], label="by mass", markersize=3)
+        if scale is not None:
+            right = extremes.secondary_yaxis(
+                "right", functions=(lambda v: scale * np.asarray(v), lambda v: np.asarray(v) / scale)
+            )
+            right.set_ylabel(f"paper's scale, ×{scale:g} (%)")
+        dispersion.plot(t, [u.dispersion for u in found], "o-", color=COLOURS[0], label="by solids", markersize=3)
         dispersion.plot(
             t, [u.number_dispersion for u in found], "s-", color=COLOURS[1], label="by number", markersize=3
         )
         dispersion.axhline(1.0, color="0.4", linewidth=0.8, linestyle="--", label="chance (Poisson)")
         dispersion.set_ylabel("index of dispersion")
-        dispersion.set_ylim(0, 1.35 * max(1.0, *(max(u.dispersion, u.number_dispersion) for u in found)))
+        dispersion.set_ylim(
+            0, 1.35 * max(1.0, top([value for u in found for value in (u.dispersion, u.number_dispersion)]))
+        )
         dispersion.legend(frameon=False, loc="upper left")
         dense.plot(t, [100 * u.dense_share for u in found], "o-", color=COLOURS[0], markersize=3)
-        dense.set_ylabel("mass in dense cells (%)")
+        dense.set_ylabel("solids in dense cells (%)")
         dense.set_ylim(bottom=0)
         for axis in (extremes, dispersion, dense):
             axis.set_xlabel(label)
@@ -57,20 +61,20 @@ def draw_uniformity(times: Floats, steps: NDArray[np.int64], found: Sequence[Uni
 def draw_lateral(profiles: Sequence[Profile], labels: Sequence[str]) -> Figure:
     """Solids fraction, velocity and mean diameter across the width, a line per frame."""
     panels: list[tuple[str, list[Floats]]] = [
-        ("solids fraction, true (%)", [100 * p.fraction for p in profiles]),
+        ("solids fraction, true (%)", [100 * p.fraction for p in profiles if p.fraction is not None]),
+        (f"solids velocity $v_{profiles[0].plane[1]}$ (m/s)", [p.velocity for p in profiles if p.velocity is not None]),
         ("mean diameter (µm)", [1e6 * p.diameter for p in profiles]),
     ]
-    if all(p.velocity is not None for p in profiles):
-        panels.insert(1, ("solids velocity $v_z$ (m/s)", [p.velocity for p in profiles if p.velocity is not None]))
+    panels = [(name, lines) for name, lines in panels if len(lines) == len(profiles)]
     with styled():
         figure = new_figure(WIDTH, 2.5)
         axes = np.atleast_1d(figure.subplots(1, len(panels)))
         for axis, (name, lines) in zip(axes, panels):
             for values, profile, shade, label in zip(lines, profiles, _shades(len(profiles)), labels):
                 axis.stairs(values, 1e3 * profile.edges, color=shade, label=label, baseline=None, linewidth=1.1)
-            axis.set_xlabel("x (mm)")
+            axis.set_xlabel(f"{profiles[0].plane[0]} (mm)")
             axis.set_ylabel(name)
-            if np.nanmin(np.concatenate(lines)) >= 0:
+            if np.nanmin(np.concatenate(lines), initial=0.0) >= 0:
                 axis.set_ylim(bottom=0)
             axis.margins(x=0)
         figure.legend(

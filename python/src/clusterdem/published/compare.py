@@ -6,14 +6,36 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from ..analysis.grid import PAPER_SCALE, RHO_P, Grid, deposit, solids_fraction
-from ..analysis.nonuniformity import strips
-from ..analysis.sizes import CLASS_NAMES, Sizes, size_summary
-from ..frame import Frame
-from .numbers import CASES, DIAMETER_RANGE, END, Row, Span
+import numpy as np
 
-GRID = (30, 30)
-"""The paper's grid, on which its largest cell fractions stand."""
+from .. import observables
+from ..frame import Floats, Frame
+from ..times import nearest
+from .cases import CASES, CELL, CLASS_BORDERS, D_P, DIAMETER_RANGE, END, SCALE, Row, Span
+
+HOW = observables.How(cell=CELL, borders=CLASS_BORDERS)
+"""Cells of the paper's size, its classes."""
+
+OBSERVED = (
+    "count",
+    "mean_diameter",
+    "size_classes",
+    "smallest_diameter",
+    "largest_diameter",
+    "densest_cell",
+    "strip_diameter",
+)
+
+SAME_SOLIDS = 0.01
+"""Share by which the solids in the domain may differ before numbers of clusters are scaled to those of the case."""
+
+LIMITS = {"count": 0.15, "mean": 0.05, "class": 0.15, "fraction": 0.20}
+"""What counts as agreement: so much of the published number, and the spread between seeds besides."""
+
+RULE = (
+    "Agrees: within 15 % of the published number (mean d 5 %, densest cell 20 %), and the spread between seeds, half the span "
+    "of row A, besides."
+)
 
 
 @dataclass(frozen=True)
@@ -24,30 +46,25 @@ class Moment:
     ----------
     time : float
         Time (s).
-    sizes : Sizes
-        Size statistics.
-    fraction : float
-        Largest true cell fraction on the paper's grid.
-    strips : tuple of float
-        Mean diameter (m) in six strips from centre to wall.
+    particles : float
+        Primary particles of the paper's size in the domain.
+    observed : dict of str to ndarray
+        The observables :data:`OBSERVED`; the densest cell is a true fraction.
     """
 
     time: float
-    sizes: Sizes
-    fraction: float
-    strips: tuple[float, ...]
+    particles: float
+    observed: dict[str, Floats]
+
+    def number(self, name: str, part: int = 0) -> float:
+        """One number of an observable."""
+        return float(self.observed[name][part])
 
 
-def moment_of(frame: Frame, rho_p: float = RHO_P) -> Moment:
+def moment_of(frame: Frame) -> Moment:
     """Reduce a frame to what the comparison needs."""
-    grid = Grid(frame.box, *GRID)
-    mass = deposit(grid, frame.x, frame.z).total(frame.mass)
-    return Moment(
-        frame.time,
-        size_summary(frame.diameter, frame.mass),
-        float(solids_fraction(mass, grid, rho_p).max()),
-        tuple(float(d) for d in strips(frame).diameter),
-    )
+    found = {name: observables.find(name)(frame, HOW) for name in OBSERVED}
+    return Moment(frame.time, float(frame.solids.sum()) / (math.pi / 6 * D_P**3), found)
 
 
 @dataclass(frozen=True)
@@ -64,6 +81,10 @@ class Line:
         The sources' values, in the order of the table's sources.
     in_points : bool
         Differences in points of percent instead of percent of the target.
+    kind : str
+        Key of :data:`LIMITS`; empty where it is not judged.
+    spread : float
+        What seeds differ by, as a share of the number.
     """
 
     name: str
@@ -71,6 +92,8 @@ class Line:
     run: float
     targets: tuple[Span | None, ...]
     in_points: bool = False
+    kind: str = ""
+    spread: float = 0.0
 
     def difference(self, source: int) -> float:
         """The run less the source's value (the middle of its span), in % of it or in points; NaN if unknown."""
@@ -80,21 +103,35 @@ class Line:
         middle = (span[0] + span[1]) / 2
         return self.run - middle if self.in_points else 100 * (self.run / middle - 1)
 
+    def agrees(self, source: int) -> bool:
+        """Whether the difference is within what counts as agreement."""
+        span = self.targets[source]
+        if span is None or math.isnan(self.run):
+            return False
+        middle = (span[0] + span[1]) / 2
+        return abs(self.run - middle) <= (LIMITS[self.kind] + self.spread) * abs(middle)
+
 
 @dataclass(frozen=True)
 class Comparison:
-    """All lines of a case, and the sources' names."""
+    """All lines of a case, the sources' names, and what must be known to read them."""
 
     case: str
     title: str
     statement: str
     sources: tuple[str, ...]
     lines: tuple[Line, ...]
+    notes: tuple[str, ...]
     verdicts: tuple[str, ...]
 
 
-def _at(moments: Sequence[Moment], time: float) -> Moment | None:
-    return next((m for m in moments if abs(m.time - time) <= 1e-4), None)
+def _spread(span: Span | None) -> float:
+    """Half a span as a share of its middle."""
+    return 0.0 if span is None else (span[1] - span[0]) / (span[0] + span[1])
+
+
+def _scaled(span: Span | None, factor: float) -> Span | None:
+    return None if span is None else (factor * span[0], factor * span[1])
 
 
 def compare(moments: Iterable[Moment], case: str, rows: Sequence[str] = ("paper", "row A")) -> Comparison:
@@ -103,7 +140,7 @@ def compare(moments: Iterable[Moment], case: str, rows: Sequence[str] = ("paper"
     Parameters
     ----------
     moments : iterable of Moment
-        The run's frames.
+        The run's frames; of each time of the sources the nearest counts (:mod:`clusterdem.times`).
     case : str
         ``case1``, ``case2`` or ``case3``.
     rows : sequence of str
@@ -114,94 +151,95 @@ def compare(moments: Iterable[Moment], case: str, rows: Sequence[str] = ("paper"
     Comparison
     """
     moments = list(moments)
+    times = [moment.time for moment in moments]
     known = CASES[case]
     sources = [row for row in known.rows if row.name in rows]
+    seeds = next(row for row in known.rows if row.name == "row A")
+    notes = []
+
+    def at(time: float) -> Moment | None:
+        number = nearest(times, time)
+        if number is not None and not math.isclose(times[number], time, rel_tol=1e-6, abs_tol=1e-12):
+            notes.append(f"The frame at {times[number]:.6g} s stands for {time:g} s.")
+        return None if number is None else moments[number]
+
+    end = at(END)
+    domain = end or (moments[-1] if moments else None)
+    factor = 1.0
     lines: list[Line] = []
-
-    def line(name: str, unit: str, run: float, targets: Iterable[Span | None], in_points: bool = False) -> None:
-        lines.append(Line(name, unit, run, tuple(targets), in_points))
-
-    for time in sorted({t for row in sources for t in row.count}):
-        moment = _at(moments, time)
-        run = math.nan if moment is None else float(moment.sizes.count)
-        line(f"clusters at {time:g} s", "", run, (row.count.get(time) for row in sources))
-    end = _at(moments, END)
+    if domain is not None:
+        target = (float(known.particles),) * 2
+        lines.append(Line("primary particles", "", domain.particles, tuple(target for _ in sources)))
+        if domain.particles > 0 and abs(domain.particles / known.particles - 1) > SAME_SOLIDS:
+            factor = known.particles / domain.particles
+            notes.append(
+                f"The domain holds {100 / factor:.3g} % of the case's solids: numbers of clusters are multiplied by {factor:.4g}."
+            )
     nothing = math.nan
 
-    def scaled(span: Span | None, factor: float) -> Span | None:
-        return None if span is None else (factor * span[0], factor * span[1])
+    def line(
+        name: str, unit: str, run: float, of: Sequence[Span | None], kind: str = "", spread: Span | None = None
+    ) -> None:
+        lines.append(Line(name, unit, run, tuple(of), kind == "class", kind, _spread(spread)))
 
-    mean = nothing if end is None else 1e6 * end.sizes.mean
-    line(f"mean d at {END:g} s", "µm", mean, (scaled(row.mean, 1e6) for row in sources))
-    for i, name in enumerate(CLASS_NAMES):
-        share = nothing if end is None else end.sizes.classes[i]
-        line(f"{name} µm at {END:g} s", "%", share, (row.classes[i] if row.classes else None for row in sources), True)
+    for time in sorted({t for row in sources for t in row.count}):
+        moment = end if time == END else at(time)
+        run = nothing if moment is None else factor * moment.number("count")
+        targets = [row.count.get(time) for row in sources]
+        line(f"clusters at {time:g} s", "", run, targets, "count", seeds.count.get(time))
+    mean = nothing if end is None else 1e6 * end.number("mean_diameter")
+    line(f"mean d at {END:g} s", "µm", mean, [_scaled(row.mean, 1e6) for row in sources], "mean", seeds.mean)
+    for i, name in enumerate(observables.find("size_classes").parts(HOW)):
+        share = nothing if end is None else end.number("size_classes", i)
+        targets = [row.classes[i] if row.classes else None for row in sources]
+        line(f"{name} µm at {END:g} s", "%", share, targets, "class", seeds.classes[i] if seeds.classes else None)
     for i, name in ((0, "smallest"), (1, "largest")):
-        value = nothing if end is None else 1e6 * (end.sizes.smallest, end.sizes.largest)[i]
+        value = nothing if end is None else 1e6 * end.number(f"{name}_diameter")
         limit = 1e6 * DIAMETER_RANGE[i]
         line(
-            f"{name} d at {END:g} s", "µm", value, ((limit, limit) if row.name == "paper" else None for row in sources)
+            f"{name} d at {END:g} s", "µm", value, [(limit, limit) if row.name == "paper" else None for row in sources]
         )
     for time in sorted({t for row in sources for t in row.fraction}):
-        moment = _at(moments, time)
-        fraction = nothing if moment is None else 100 * PAPER_SCALE * moment.fraction
-        line(f"densest cell at {time:g} s*", "%", fraction, (scaled(row.fraction.get(time), 100) for row in sources))
+        moment = end if time == END else at(time)
+        fraction = nothing if moment is None else 100 * SCALE * moment.number("densest_cell")
+        targets = [_scaled(row.fraction.get(time), 100) for row in sources]
+        line(f"densest cell at {time:g} s*", "%", fraction, targets, "fraction", seeds.fraction.get(time))
     if case == "case3":
-        for i in range(6):
-            value = nothing if end is None else 1e6 * end.strips[i]
+        for i in range(HOW.strips):
+            value = nothing if end is None else 1e6 * end.number("strip_diameter", i)
             name = f"mean d, strip {i + 1} of 6" + (" (centre)" if i == 0 else " (wall)" if i == 5 else "")
-            targets = ((1e6 * row.strips[i],) * 2 if row.strips else None for row in sources)
-            line(name, "µm", value, targets)
+            line(name, "µm", value, [(1e6 * row.strips[i],) * 2 if row.strips else None for row in sources])
     return Comparison(
         case,
         known.title,
         known.statement,
         tuple(row.name for row in sources),
         tuple(lines),
-        tuple(verdicts(moments, known.rows, case)),
+        tuple(dict.fromkeys(notes)),
+        tuple(_verdicts(lines, sources, end, case)),
     )
 
 
-def verdicts(moments: Sequence[Moment], rows: Sequence[Row], case: str) -> list[str]:
-    """Say plainly what agrees: clusters within 15 %, mean d within 5 %, classes within 5 points, densest cell within 20 %."""
-    end = _at(moments, END)
+def _verdicts(lines: Sequence[Line], sources: Sequence[Row], end: Moment | None, case: str) -> list[str]:
+    """Say plainly what agrees; how far what differs does stands in the table."""
     if end is None:
         return [f"No frame at {END:g} s: the end state cannot be compared."]
     said = []
-    for row in rows:
-        if row.name not in ("paper", "row A"):
-            continue
-        tests = []
-        for time, span in sorted(row.count.items()):
-            if (moment := _at(moments, time)) is not None:
-                tests.append((f"clusters at {time:g} s", _apart(moment.sizes.count, span), 15.0, "%"))
-        if row.mean is not None:
-            tests.append(("mean diameter", _apart(end.sizes.mean, row.mean), 5.0, "%"))
-        for name, share, (low, high) in zip(CLASS_NAMES, end.sizes.classes, row.classes):
-            apart = share - high if share > high else min(share - low, 0.0)
-            tests.append((f"share {name} µm", apart, 5.0, "points"))
-        for time, span in sorted(row.fraction.items()):
-            if (moment := _at(moments, time)) is not None:
-                tests.append((f"densest cell at {time:g} s", _apart(PAPER_SCALE * moment.fraction, span), 20.0, "%"))
-        agree = [name for name, apart, limit, _ in tests if abs(apart) <= limit]
-        differ = [f"{name} ({apart:+.3g} {unit})" for name, apart, limit, unit in tests if abs(apart) > limit]
+    for source, row in enumerate(sources):
+        judged = [line for line in lines if line.kind and not math.isnan(line.difference(source))]
+        agree = [line.name.rstrip("*") for line in judged if line.agrees(source)]
+        differ = [line.name.rstrip("*") for line in judged if not line.agrees(source)]
         said.append(
             f"{row.name}: agrees in {', '.join(agree) or 'nothing'}; differs in {', '.join(differ) or 'nothing'}."
         )
     if case == "case3":
-        d = end.strips
-        rises = all(a < b for a, b in zip(d, d[1:]))
+        d = end.observed["strip_diameter"]
+        rises = bool((np.diff(d) > 0).all())
         said.append(
-            f"Centre to wall the mean diameter {'rises in every strip' if rises else 'does not rise throughout'}: "
-            f"{1e6 * d[0]:.0f} to {1e6 * d[-1]:.0f} µm (paper, in words: below 300 in the centre, mostly above 600 at the walls)."
+            f"Centre to wall the mean diameter {'rises in every strip' if rises else 'does not rise throughout'} "
+            "(paper, in words: below 300 µm in the centre, mostly above 600 at the walls)."
         )
     return said
-
-
-def _apart(value: float, span: Span) -> float:
-    """How far a value lies beyond a span, in % of the span's near end; 0 inside."""
-    low, high = span
-    return 100 * (value / high - 1 if value > high else min(value / low - 1, 0.0))
 
 
 def _show(value: float) -> str:
@@ -226,7 +264,7 @@ def show_difference(line: Line, source: int) -> str:
     return f"{value:+.1f} {'pt' if line.in_points else '%'}"
 
 
-FOOTNOTE = "* on the 30 x 30 grid and the paper's scale: its printed fractions are ten times the true ones in a slab 3 mm thick."
+FOOTNOTE = "* in cells of 10 x 20 mm and on the paper's scale: its printed fractions are ten times the true ones in a slab 3 mm thick."
 
 
 def table(comparison: Comparison) -> list[list[str]]:
@@ -254,7 +292,7 @@ def as_text(comparison: Comparison) -> str:
             word.ljust(width) if i == 0 else word.rjust(width) for i, (word, width) in enumerate(zip(row, widths))
         )
 
-    lines = [f"{comparison.case}: {comparison.title}", "", join(rows[0]), "  ".join("-" * w for w in widths)]
-    lines += [join(row) for row in rows[1:]]
-    lines += ["", FOOTNOTE, "", *comparison.verdicts]
+    lines = [f"{comparison.case}: {comparison.title}", *comparison.notes, "", join(rows[0])]
+    lines += ["  ".join("-" * w for w in widths), *(join(row) for row in rows[1:])]
+    lines += ["", FOOTNOTE, RULE, "", *comparison.verdicts]
     return "\n".join(lines) + "\n"

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import sys
+import time
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from tqdm import tqdm
 
+from ...errors import InputError
 from ...frame import Floats
 from .identify import Identified, identify
 from .local import Neighbourhood, explore, polish
@@ -90,44 +92,52 @@ def jackknife(scale: Yardstick, samples: Floats) -> float:
 
 def carry_out(study: Calibration, model: Model) -> Fit:
     """Do all stages; what has been run before is not run again."""
-    bar = tqdm(total=study.search.trials, unit="trial", disable=not sys.stderr.isatty(), file=sys.stderr)
-    least = float("inf")
+    begun = time.monotonic()
 
-    def told(trial: Trial) -> None:
-        nonlocal least
-        least = min(least, trial.loss)
-        bar.update()
-        bar.set_postfix_str(f"best {least:.3g}")
+    def told(trials: Sequence[Trial]) -> None:
+        """A line per generation, also where nobody looks on: a study runs for a night."""
+        done, took = len(trials), time.monotonic() - begun
+        left = took / done * max(0, study.search.trials - done)
+        best = best_of(trials).loss
+        text = f"{done} of {study.search.trials} trials, best loss {best:.4g}, {_duration(took)} gone, {_duration(left)} left"
+        print(text, file=sys.stderr, flush=True)
 
-    with bar:
-        bar.set_description("starts")
-        named = list(study.starts.items()) or [("middle", middle(study.parameters))]
-        starts = try_points(model, study.search, named, 0)
-        spread = spread_of(all_targets(study), [start.stacked for start in starts])
-        scale = yardstick(study, spread)
-        bar.set_description("search")
-        trials = search(model, study.parameters, study.search, scale, starts, told)
-        fit = Fit(study, spread, scale, trials, best_of(trials))
-        bar.set_description("neighbourhood")
-        _look_around(fit, model)
-        bar.set_description("confirmation")
-        _confirm(fit, model)
+    named = list(study.starts.items()) or [("middle", middle(study.parameters))]
+    starts = try_points(model, study.search, named, 0)
+    if all(np.isnan(start.stacked).all() for start in starts) and model.blamed():
+        raise InputError(study.path, f"no start gives a number: {model.blamed()}")
+    spread = spread_of(all_targets(study), [start.stacked for start in starts])
+    scale = yardstick(study, spread)
+    trials = search(model, study.parameters, study.search, scale, starts, told)
+    fit = Fit(study, spread, scale, trials, best_of(trials))
+    _look_around(fit, model)
+    _confirm(fit, model)
     return fit
+
+
+def _duration(seconds: float) -> str:
+    """A time as people say it."""
+    if seconds < 120:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
 
 
 def _look_around(fit: Fit, model: Model) -> None:
     stage, parameters = fit.study.local, fit.study.parameters
     if stage is None:
         return
-    fit.near = explore(model, parameters, stage, fit.scale, fit.best.point)
-    here = fit.scale.loss_of(fit.near.residuals.mean(axis=0))
-    for _ in range(stage.polish):
-        steps = polish(model, parameters, stage, fit.scale, fit.near, len(fit.trials))
+    near = explore(model, parameters, stage, fit.scale, fit.best.point)
+    here = fit.scale.loss_of(near.residuals.mean(axis=0))
+    for number in range(1, stage.polish + 1):
+        steps = polish(model, parameters, stage, fit.scale, near, len(fit.trials))
         fit.trials += steps
         better = min(steps, key=lambda trial: trial.loss)
         if better.loss >= here:
             break
         fit.best, here = better, better.loss
+        if number < stage.polish:  # the next step starts from there
+            near = explore(model, parameters, stage, fit.scale, fit.best.point)
+    fit.near = near
     fit.identified = identify(fit.near, fit.scale, parameters)
 
 

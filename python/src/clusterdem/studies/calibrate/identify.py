@@ -21,6 +21,9 @@ DETERMINED = 0.5
 TWINS = 0.8
 """Parameters whose errors correlate more than this cannot be told apart."""
 
+FITS = 4.0
+"""Mean square residual per degree of freedom above which nothing fits: deviations of twice their errors, on average."""
+
 COMPONENT = 0.3
 """Components of a direction that are named."""
 
@@ -134,7 +137,12 @@ def in_words(found: Identified) -> list[str]:
     names = np.array(found.names)
     known = [name for name, yes in zip(names, found.determined) if yes]
     unknown = [name for name, yes in zip(names, found.determined) if not yes]
-    if known:
+    if found.misfit > FITS:
+        said.append(
+            f"Nothing fits: at the best point the mean square deviation is {found.misfit:.3g} times what the errors allow. "
+            "The values are those that are least far off; no parameter is determined by data that the model does not reproduce."
+        )
+    elif known:
         said.append(f"The data determine {', '.join(known)}.")
     if unknown:
         said.append(

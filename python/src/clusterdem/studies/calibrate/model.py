@@ -13,13 +13,13 @@ import numpy as np
 from ...errors import InputError
 from ...frame import Floats
 from ...io.output import write_text
-from ...io.reader import read_dumps
-from ...run import RunFolder
+from ...observables import columns_of
+from ...run import Run
 from ..engine import Engine
-from ..runs import Failure, Keeping, Run, Setting, perform, plan
+from ..runs import Failure, Keeping, Setting, StudyRun, perform, plan
 from .parameters import Point, described, fill
 from .study import Calibration, Case, Stage
-from .targets import numbers_of, read_off
+from .targets import KEPT, numbers_of, read_off, without_frame
 
 NUMBERS = "numbers.json"
 
@@ -30,16 +30,25 @@ class Model(Protocol):
     def observe(self, wanted: Sequence[tuple[Point, int]], stage: Stage) -> list[Floats]:
         """Numbers for the targets of all cases, shape (M,), at points with seeds; NaN where there are none."""
 
-
-def _keep(found: RunFolder) -> None:
-    frames = list(read_dumps(found.dumps, columns=()))
-    if len(frames) < 2:
-        raise InputError(found.dumps[0], "holds no frame after the start")
-    write_text(found.path / NUMBERS, json.dumps(numbers_of(frames)) + "\n")
+    def blamed(self) -> str:
+        """Why numbers are not there; empty if nothing failed."""
 
 
-KEEPING = Keeping("numbers 1", _keep)
-"""Of a calibration's runs: every quantity of every frame, a few kB."""
+def keeping_of(study: Calibration) -> Keeping:
+    """What a calibration keeps of its runs: every quantity of every frame, a few kB; other size classes are other runs."""
+    own = {target.quantity for case in study.cases for target in case.targets} - set(KEPT)
+    names = (*KEPT, *sorted(own))
+
+    def keep(found: Run) -> None:
+        frames = list(found.frames(("y", *columns_of(names))))
+        if len(frames) < 2:
+            raise InputError(found.path, "holds no frame after the start")
+        if any(np.isnan(frame.time) for frame in frames):
+            raise InputError(found.dumps[0], "frames hold no time, which targets have: dump_modify … time yes")
+        write_text(found.path / NUMBERS, json.dumps(numbers_of(frames, names, study.how)) + "\n")
+
+    borders = " ".join(f"{border:g}" for border in study.how.borders)
+    return Keeping(f"numbers 2: {' '.join(names)}; classes {borders}; plane {study.how.plane}", keep)
 
 
 @dataclass
@@ -77,22 +86,24 @@ class EngineModel:
         self.failures |= perform(every, self.jobs, quiet=True)
         return [np.concatenate([self.read(case, run) for case, run in zip(self.study.cases, row)]) for row in runs]
 
-    def planned(self, case: Case, point: Point, seed: int, stage: Stage) -> Run:
+    def planned(self, case: Case, point: Point, seed: int, stage: Stage) -> StudyRun:
         """The run of a case at a point."""
         variables = fill(case.variables | stage.variables, point)
         task = replace(case, seeds=(seed,))
         setting = Setting(case.name, described(point), variables)
-        return plan(task, [setting], self.engine, self.folder, KEEPING, stage.limit)[0]
+        limit = case.limit or stage.limit
+        return plan(task, [setting], self.engine, self.folder, keeping_of(self.study), limit)[0]
 
-    def read(self, case: Case, run: Run) -> Floats:
-        """The numbers of a run."""
+    def read(self, case: Case, run: StudyRun) -> Floats:
+        """The numbers of a run; NaN of one that took too long or failed."""
         if not run.done:
-            if not run.overran:  # whatever it is, it would be so again and again
-                raise InputError(self.study.path, f"a run failed: {self.failures[run.key].text}")
             return np.full(len(case.targets), np.nan)
-        found = read_off(case.targets, json.loads((run.folder / NUMBERS).read_text()), case.solids)
-        for target, number in zip(case.targets, found):
-            if np.isnan(number):
-                rule = f"case {case.name!r}: its run has no frame at {target.time:g} s ({run.folder})"
-                raise InputError(self.study.path, rule)
-        return found
+        numbers = json.loads((run.folder / NUMBERS).read_text())
+        for target in without_frame(case.targets, numbers):
+            rule = f"case {case.name!r}: its run has no frame at {target.time:g} s ({run.folder})"
+            raise InputError(self.study.path, rule)
+        return read_off(case.targets, numbers, case.solids)
+
+    def blamed(self) -> str:
+        """The words of the first run that failed, not by taking too long; empty without one."""
+        return next((failure.text for failure in self.failures.values() if not failure.run.overran), "")

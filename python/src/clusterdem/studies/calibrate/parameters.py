@@ -82,8 +82,8 @@ def reals(parameters: Sequence[Parameter]) -> list[Real]:
 
 
 def choices(parameters: Sequence[Parameter]) -> list[Choice]:
-    """The choices among the parameters."""
-    return [parameter for parameter in parameters if isinstance(parameter, Choice)]
+    """The choices among the parameters that have more than one option."""
+    return [parameter for parameter in parameters if isinstance(parameter, Choice) and len(parameter.options) > 1]
 
 
 def units(parameters: Sequence[Parameter], point: Point) -> Floats:

@@ -10,11 +10,15 @@ import numpy as np
 
 from ...frame import Floats
 from ...io.output import write_csv, write_text
+from ...observables import find
 from .fit import Fit
 from .identify import PRIOR, combination, in_words
 from .model import EngineModel
 from .parameters import Choice, Real, fill, text_of
-from .targets import BELOW, EQUAL, QUANTITIES, Target
+from .targets import BELOW, EQUAL, Target
+
+MOST_FAILURES = 5
+"""Failed runs that are quoted."""
 
 
 def _row(cells: Sequence[str]) -> str:
@@ -28,9 +32,10 @@ def _table(heading: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
 def _shown(target: Target, value: float) -> str:
     if np.isnan(value):
         return "none"
-    if QUANTITIES[target.quantity].unit == "m":
+    if find(target.quantity).unit == "m":
         return f"{1e6 * value:.0f} µm"
-    return f"{value:,.0f}" if target.quantity == "clusters" else f"{value:.3g} %"
+    unit = find(target.quantity).unit
+    return f"{value:,.0f}" if target.quantity == "clusters" else f"{value:.3g}{' ' + unit if unit else ''}"
 
 
 def _observed(target: Target) -> str:
@@ -45,7 +50,7 @@ def _with_spread(target: Target, samples: Floats) -> str:
     spread = float(samples.std(ddof=1))
     if target.quantity == "clusters":
         return f"{mean} ± {spread:,.0f}"
-    return f"{mean} ± {1e6 * spread if QUANTITIES[target.quantity].unit == 'm' else spread:.2g}"
+    return f"{mean} ± {1e6 * spread if find(target.quantity).unit == 'm' else spread:.2g}"
 
 
 def _fit_rows(fit: Fit) -> list[list[str]]:
@@ -142,6 +147,17 @@ def _commands(fit: Fit) -> list[str]:
     return [*lines, "```", ""]
 
 
+def _failures(model: EngineModel) -> list[str]:
+    """Runs that failed: each a trial as bad as can be."""
+    if not model.failures:
+        return []
+    lines = ["", "## Runs that failed", "", "Each counts as far off as can be.", ""]
+    for failure in list(model.failures.values())[:MOST_FAILURES]:
+        lines += ["```", failure.text, "```", ""]
+    more = len(model.failures) - MOST_FAILURES
+    return [*lines, f"… and {more} more."] if more > 0 else lines
+
+
 def as_markdown(fit: Fit, model: EngineModel) -> str:
     """The report."""
     study = fit.study
@@ -171,6 +187,7 @@ def as_markdown(fit: Fit, model: EngineModel) -> str:
         "",
         *_targets(fit),
         "± is the standard deviation between seeds.",
+        *_failures(model),
     ]
     return "\n".join(lines).rstrip() + "\n"
 

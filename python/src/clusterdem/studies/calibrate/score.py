@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...frame import Floats
+from ...observables import find
 from .study import Calibration
-from .targets import QUANTITIES, RANGE, Target, deviations
+from .targets import EQUAL, RANGE, Target, deviations
 
 WORST = {True: float(np.log(RANGE)), False: 100.0}
-"""Deviation of a number that is not there, since its run took too long."""
+"""Deviation of a number that is not there: its run took too long or failed, or there was nothing to measure."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,7 @@ class Yardstick:
     def residuals(self, numbers: Floats) -> Floats:
         """Deviations in units of the errors; numbers of shape (M,)."""
         apart = deviations(self.targets, np.nan_to_num(numbers, nan=1.0))
-        worst = np.array([WORST[QUANTITIES[target.quantity].relative] for target in self.targets])
+        worst = np.array([WORST[find(target.quantity).relative] for target in self.targets])
         return np.where(np.isnan(numbers), worst, apart) / self.errors
 
     def loss(self, samples: Floats) -> float:
@@ -85,7 +86,7 @@ def spread_of(targets: Sequence[Target], groups: Sequence[Floats]) -> Floats:
     for samples in groups:
         if np.isfinite(samples).all():
             # bounds hold on one side only: their spread is that of the number itself
-            free = [Target(t.quantity, t.time, t.part, t.value) for t in targets]
+            free = [replace(t, kind=EQUAL) for t in targets]
             apart = np.stack([deviations(free, sample) for sample in samples])
             squares += ((apart - apart.mean(axis=0)) ** 2).sum(axis=0)
             count += len(samples) - 1

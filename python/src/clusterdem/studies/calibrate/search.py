@@ -97,7 +97,7 @@ def search(
     stage: Search,
     yardstick: Yardstick,
     starts: Sequence[Trial],
-    told: Callable[[Trial], None] = lambda trial: None,
+    told: Callable[[Sequence[Trial]], None] = lambda trials: None,
 ) -> list[Trial]:
     """Trials in order, the starts first.
 
@@ -114,12 +114,12 @@ def search(
     starts : sequence of Trial
         Points already tried with all seeds.
     told : callable
-        Called with every finished trial.
+        Called with all trials so far after each generation.
     """
     trials = list(starts)
     for trial in trials:
         trial.loss = yardstick.loss(trial.stacked)
-        told(trial)
+    told(trials)
     sampler = _sampler(parameters, best_of(trials).point, stage.population)
     while len(trials) < stage.trials:
         drawn = [sampler.ask() for _ in range(sampler.population_size)]
@@ -135,8 +135,8 @@ def search(
         _add(model, stage, promising, stage.seeds[1:])
         for trial in batch:
             trial.loss = yardstick.loss(trial.stacked)
-            told(trial)
         trials += batch
+        told(trials)
         if len(batch) == len(drawn):  # else the trials are spent
             sampler.tell([(one, trial.loss) for one, trial in zip(drawn, batch)])
     return trials
@@ -166,6 +166,6 @@ def _point(parameters: Sequence[Parameter], numbers: Floats, chosen: Floats) -> 
     place = dict(zip((real.name for real in reals(parameters)), numbers))
     option = dict(zip((one.name for one in choices(parameters)), chosen.argmax(axis=1)))
     return {
-        p.name: p.value(float(place[p.name])) if isinstance(p, Real) else p.options[int(option[p.name])]
+        p.name: p.value(float(place[p.name])) if isinstance(p, Real) else p.options[int(option.get(p.name, 0))]
         for p in parameters
     }

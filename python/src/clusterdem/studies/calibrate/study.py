@@ -8,13 +8,16 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import InputError
-from ...published.numbers import CASES
+from ...observables import REGISTRY, How, find
+from ...published.cases import CASES, solids_of
 from ..file import StudyReader, Variables, load_table
 from .parameters import PLACE, Choice, Parameter, Point, Real
-from .targets import ABOVE, BELOW, EQUAL, ERROR, QUANTITIES, Target, evenly, published_solids, published_targets
+from .targets import ABOVE, BELOW, EQUAL, ERROR, Target, evenly, published_targets
 
-KEYS = ("variables", "seeds", "ranks", "parameter", "case", "start", "search", "local", "confirm")
-CASE_KEYS = ("name", "input", "published", "weight", "solids", "variables", "target")
+KEYS = (
+    "variables", "seeds", "ranks", "classes", "plane", "observables_file", "parameter", "case", "start", "search", "local", "confirm",
+)  # fmt: skip
+CASE_KEYS = ("name", "input", "published", "weight", "solids", "limit", "variables", "target")
 TARGET_KEYS = ("quantity", "time", "part", EQUAL, BELOW, ABOVE, "error", "weight")
 PARAMETER_KEYS = ("name", "low", "high", "log", "choices")
 STAGE_KEYS = ("variables", "seeds", "limit")
@@ -42,6 +45,8 @@ class Case:
         Variables of its runs, with places for parameters.
     ranks : int
         MPI ranks of a run.
+    limit : int or None
+        Core-seconds that a run of it may take, over the stages' own.
     seeds : tuple of int
         Seeds of the run to be planned; set run by run.
     """
@@ -54,6 +59,7 @@ class Case:
     solids: float | None
     variables: Variables
     ranks: int
+    limit: int | None = None
     seeds: tuple[int, ...] = ()
 
 
@@ -138,6 +144,8 @@ class Calibration:
         Points to begin with, by name.
     search, local, confirm
         The stages; the last two may be absent.
+    how : How
+        How observables are measured: size classes, plane.
     """
 
     path: Path
@@ -145,6 +153,7 @@ class Calibration:
     parameters: tuple[Parameter, ...]
     starts: dict[str, Point]
     search: Search
+    how: How = How()
     local: Local | None = None
     confirm: Confirm | None = None
 
@@ -167,8 +176,12 @@ def read_calibration(path: str | Path, variables: Variables | None = None, trial
 
 
 class _Reader(StudyReader):
+    how: How = How()
+
     def calibration(self, over: Variables) -> Calibration:
         self.only(KEYS, self.table)
+        self.own_observables(self.table)
+        self.how = How(borders=self.classes(self.table), plane=self.plane(self.table))
         parameters = self.parameters()
         ranks = self.count("ranks", self.table.get("ranks", 1))
         common = self.variables("variables", self.table.get("variables", {}))
@@ -194,6 +207,7 @@ class _Reader(StudyReader):
             parameters,
             starts,
             found,
+            self.how,
             self.local(local) if "local" in self.table else None,
             self.confirm(confirm, starts) if "confirm" in self.table else None,
         )
@@ -245,8 +259,8 @@ class _Reader(StudyReader):
         if not isinstance(given, list):
             raise self.refuse(f"{where} choices", given, "must be a list of values")
         options = tuple(self.value(where, name, value) for value in given)
-        if len(options) < 2 or len(set(options)) < len(options):
-            raise self.refuse(f"{where} choices", given, "needs two values or more, all different")
+        if not options or len(set(options)) < len(options):
+            raise self.refuse(f"{where} choices", given, "needs one value or more, all different")
         if extra := sorted(set(table) - {"name", "choices"}):
             raise self.refuse(where, extra, "a parameter has either choices, or low, high and log")
         return Choice(name, options)
@@ -281,7 +295,9 @@ class _Reader(StudyReader):
                 )
                 raise InputError(self.path, f"{where}{rule}")
             weight = self.number(f"{where}weight", table.get("weight", 1.0), above=0)
-            found.append(Case(self.path, self.input(table), name, targets, weight, solids, variables, ranks))
+            limit = table.get("limit")
+            limit = None if limit is None else self.count(f"{where}limit", limit)
+            found.append(Case(self.path, self.input(table), name, targets, weight, solids, variables, ranks, limit))
         if not found:
             raise InputError(self.path, "no case: [[case]] must name an input and what was observed of it")
         return tuple(found)
@@ -290,7 +306,7 @@ class _Reader(StudyReader):
         if "solids" in table:
             return self.number(f"{where}solids", table["solids"], above=0)
         published = table.get("published")
-        return published_solids(published) if published in CASES else None
+        return solids_of(published) if published in CASES else None
 
     def targets(self, where: str, table: dict[str, Any]) -> list[Target]:
         found: list[Target] = []
@@ -298,6 +314,8 @@ class _Reader(StudyReader):
             published = table["published"]
             if published not in CASES:
                 raise self.refuse(f"{where}published", published, f"must be among {', '.join(CASES)}")
+            if self.how.borders != How().borders:
+                raise self.refuse("classes", self.table["classes"], f"published = {published!r} has the paper's own")
             found += published_targets(published)
         own = [self.target(where, one) for one in self.tables("target", table, "case.")]
         found += evenly(own)
@@ -308,27 +326,29 @@ class _Reader(StudyReader):
     def target(self, where: str, table: dict[str, Any]) -> Target:
         self.only(TARGET_KEYS, table, f"{where}target: ")
         name = table.get("quantity")
-        if name not in QUANTITIES:
-            raise self.refuse(f"{where}target.quantity", name, f"must be among {', '.join(QUANTITIES)}")
-        quantity = QUANTITIES[name]
+        if not isinstance(name, str) or name not in REGISTRY:
+            raise self.refuse(f"{where}target.quantity", name, f"must be among {', '.join(REGISTRY)}")
+        quantity = find(name)
+        parts = quantity.parts(self.how)
         kinds = [kind for kind in (EQUAL, BELOW, ABOVE) if kind in table]
         if len(kinds) != 1:
             raise self.refuse(f"{where}target", kinds, "needs one of value, below, above")
         part = table.get("part")
-        if quantity.parts and part not in quantity.parts:
-            raise self.refuse(f"{where}target.part", part, f"must be among {', '.join(quantity.parts)}")
-        if not quantity.parts and part is not None:
+        if parts and part not in parts:
+            raise self.refuse(f"{where}target.part", part, f"must be among {', '.join(parts)}")
+        if not parts and part is not None:
             raise self.refuse(f"{where}target.part", part, f"{name} is a single number")
         given = f"{where}target"
         value = self.number(f"{given}.{kinds[0]}", table[kinds[0]], above=0 if quantity.relative else None)
         return Target(
             name,
             self.number(f"{given}.time", table.get("time"), above=0),
-            quantity.parts.index(part) if quantity.parts else 0,
+            parts.index(part) if parts else 0,
             value,
             kinds[0],
             self.number(f"{given}.error", table.get("error", ERROR[quantity.relative]), above=0),
             self.number(f"{given}.weight", table.get("weight", 1.0), above=0),
+            part or "",
         )
 
     def check_places(self, case: Case, parameters: tuple[Parameter, ...]) -> None:

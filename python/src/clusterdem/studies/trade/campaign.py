@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..engine import Engine
-from ..runs import Failure, Run, Setting, perform, plan
-from .frames import KEEPING
-from .observables import Observed
+from ..runs import Failure, Setting, StudyRun, perform, plan
+from .frames import keeping_of
+from .observe import Observed
 from .settings import settings_of, together
 from .study import Study
 from .weigh import Weighed, cheapest, weigh
@@ -33,16 +33,19 @@ class Campaign:
     engine: Engine
     folder: Path
     jobs: int
-    runs: list[Run] = field(default_factory=list)
+    runs: list[StudyRun] = field(default_factory=list)
     failures: dict[str, Failure] = field(default_factory=dict)
     weighed: list[Weighed] = field(default_factory=list)
     observed: dict[str, Observed] = field(default_factory=dict)
 
-    def planned(self) -> list[Run]:
+    def planned(self) -> list[StudyRun]:
         """The runs of all settings that the study names."""
-        return plan(self.study, settings_of(self.study), self.engine, self.folder, KEEPING)
+        return self._plan(settings_of(self.study))
 
-    def carry_out(self, runs: Iterable[Run]) -> None:
+    def _plan(self, settings: Iterable[Setting]) -> list[StudyRun]:
+        return plan(self.study, settings, self.engine, self.folder, keeping_of(self.study.observables))
+
+    def carry_out(self, runs: Iterable[StudyRun]) -> None:
         """Do runs, and weigh all settings so far."""
         new = list(runs)
         self.failures |= perform(new, self.jobs)
@@ -64,7 +67,7 @@ class Campaign:
                     kept.append(candidate)
                     break
                 joined = together(self.study, [*kept, candidate])
-                self.carry_out(plan(self.study, [joined], self.engine, self.folder, KEEPING))
+                self.carry_out(self._plan([joined]))
                 if cheapest(self.weighed, tolerance) is self.weighed[-1]:
                     kept.append(candidate)
                     break

@@ -13,10 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...frame import Floats
-from .observables import Observed
+from ...times import same_times
+from .observe import Observed
 
-SAME_TIME = 0.01
-"""Frames whose times differ by less than this share are compared."""
+CONFIDENCE = 2.0
+"""Standard errors within which the error of a setting is taken to lie."""
 
 
 @dataclass(frozen=True)
@@ -39,18 +40,25 @@ class Error:
 
     @property
     def inside(self) -> bool:
-        """Whether a single run could not show it: an error inside the spread is no error."""
+        """Whether a single run could not show it."""
         return self.value <= self.spread
 
-    @property
-    def counted(self) -> float:
-        """The error that is held against a tolerance."""
-        return 0.0 if self.inside else self.value
+    def within(self, tolerance: float) -> bool | None:
+        """Whether the error is within a tolerance, beyond it, or (None) cannot be told with these seeds.
+
+        The spread of single seeds plays no part: more seeds make the standard error as small as is needed.
+        """
+        if self.value + CONFIDENCE * self.uncertainty <= tolerance:
+            return True
+        return False if self.value - CONFIDENCE * self.uncertainty > tolerance else None
 
 
 def distance(a: Floats, b: Floats, reference: Floats) -> float:
-    """Sum of absolute differences over the sum of absolute values of the reference."""
-    difference, size = float(np.abs(a - b).sum()), float(np.abs(reference).sum())
+    """Sum of absolute differences over the sum of absolute values of the reference; what neither has is no difference."""
+    nothing = np.isnan(a) & np.isnan(b)
+    if (np.isnan(a) ^ np.isnan(b)).any():
+        return float("inf")
+    difference, size = float(np.abs(a - b)[~nothing].sum()), float(np.nansum(np.abs(reference)))
     if difference == 0.0:
         return 0.0
     return difference / size if size > 0 else float("inf")
@@ -79,15 +87,14 @@ def error_between(samples: Floats, reference: Floats, spread: float) -> Error:
 
 
 def comparable(a: Observed, b: Observed, name: str) -> bool:
-    """Whether two runs have the same numbers to compare: the same times, and as many cells."""
-    same_times = len(a.times) == len(b.times) and np.allclose(a.times, b.times, rtol=SAME_TIME, atol=0)
-    return bool(same_times and a.values[name].shape == b.values[name].shape)
+    """Whether two runs have the same numbers to compare: the same times (:mod:`clusterdem.times`), and as many cells."""
+    return same_times(a.times, b.times) and a.values[name].shape == b.values[name].shape
 
 
 def errors_of(
     setting: Mapping[int, Observed], reference: Mapping[int, Observed], names: tuple[str, ...]
 ) -> dict[str, Error | None]:
-    """Errors by observable; None where the two cannot be compared.
+    """Errors by observable; None where the two cannot be compared, or the seeds of the reference with each other.
 
     Parameters
     ----------
@@ -100,6 +107,9 @@ def errors_of(
     common = [seed for seed in reference if seed in setting]
     for name in names:
         errors[name] = None
+        first = next(iter(reference.values()))
+        if not all(comparable(first, other, name) for other in reference.values()):
+            continue
         if common and all(comparable(setting[seed], reference[seed], name) for seed in common):
             every = np.stack([run.values[name].ravel() for run in reference.values()])
             mine = np.stack([setting[seed].values[name].ravel() for seed in common])

@@ -10,9 +10,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
+from ...observables import find
 from ...plot.style import COLOURS, WIDTH, new_figure, styled
 from .errors import Error
-from .observables import OBSERVABLES
 from .weigh import Weighed, front
 
 MARKS = "osD^v<>PX*"
@@ -63,10 +63,14 @@ def _panel(panel: Axes, weighed: Sequence[Weighed], name: str, axes_of: Sequence
     errors: dict[int, Error] = {}
     for number, w in enumerate(weighed):
         error = w.errors[name]
-        if error is not None and w.costs:
+        if error is not None and w.costs and math.isfinite(error.value):
             errors[number] = error
-    spread = errors[0].spread
-    largest = max([spread, *(error.value + (error.uncertainty or 0) for error in errors.values())]) or 1e-3
+    if not errors:
+        panel.text(0.5, 0.5, f"{find(name).label}: cannot be compared", ha="center", transform=panel.transAxes)
+        return
+    spread = errors[0].spread if 0 in errors else 0.0
+    drawn = [error.value + max(error.uncertainty, 0.0) for error in errors.values() if math.isfinite(error.value)]
+    largest = max([spread, *(value for value in drawn if math.isfinite(value))]) or 1e-3
     floor = (spread or largest) / 10**DECADES
     panel.axhspan(100 * floor, 100 * spread, color="0.9", zorder=0, linewidth=0)
     shown = {number: max(error.value, floor) for number, error in errors.items()}
@@ -104,4 +108,4 @@ def _panel(panel: Axes, weighed: Sequence[Weighed], name: str, axes_of: Sequence
     for axis_of_panel in (panel.xaxis, panel.yaxis):
         axis_of_panel.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         axis_of_panel.set_minor_formatter(NullFormatter())
-    panel.set_ylabel(f"{OBSERVABLES[name].label}: error (%)")
+    panel.set_ylabel(f"{find(name).label}: error (%)")

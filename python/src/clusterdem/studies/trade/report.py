@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ...io.output import write_csv, write_text
+from ...observables import find
 from ..engine import Engine
 from .errors import Error
-from .observables import OBSERVABLES
 from .study import Study
 from .weigh import Weighed
 
@@ -66,11 +66,11 @@ def as_markdown(study: Study, engine: Engine, weighed: Sequence[Weighed], answer
         "",
         f"{engine.version}, {study.ranks} rank{'s' if study.ranks > 1 else ''}, {len(study.seeds)} seeds; all runs with "
         f"{fixed}. Errors in % of the reference (number 0) ± their standard error; **bold**: more than the spread "
-        "between single seeds of the reference, which stands in the first row; the rest is no error. n/c: cannot be "
-        "compared. Core-seconds: time loop × ranks × CPU use, median over seeds.",
+        "between single seeds of the reference, which stands in the first row; the rest no single run could show. A setting "
+        "keeps a tolerance where its largest error and twice the standard error do. n/c: cannot be compared. Core-seconds: time loop × ranks × CPU use, median over seeds.",
         "",
     ]
-    heading = ["", "axis", "setting", "core-s", "faster", *(OBSERVABLES[name].label for name in study.observables)]
+    heading = ["", "axis", "setting", "core-s", "faster", *(find(name).label for name in study.observables)]
     lines += [_markdown_row(heading), _markdown_row(["---"] * len(heading))]
     spreads = [weighed[0].errors[name] for name in study.observables]
     lines.append(_markdown_row(["", "", "*spread*", "", "", *(f"*{percent(e.spread)}*" if e else "" for e in spreads)]))

@@ -6,13 +6,16 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ...errors import InputError
+from ...observables import REGISTRY, How
 from ..file import StudyReader, Variables, load_table
-from .observables import CELL, OBSERVABLES
+from .observe import DEFAULT
 
 ONE_AT_A_TIME, PRODUCT = "one at a time", "product"
 DEFAULT_SEEDS = 5
 FEWEST_SEEDS = 3
-KEYS = ("input", "seeds", "ranks", "combine", "observables", "cell", "variables", "switches", "axis")
+KEYS = (
+    "input", "seeds", "ranks", "combine", "observables", "observables_file", "cell", "classes", "plane", "variables", "switches", "axis",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -59,8 +62,8 @@ class Study:
         All combinations of the axes, instead of one axis at a time.
     observables : tuple of str
         Names of what is compared.
-    cell : (float, float)
-        Width and height of a map's cell (m).
+    how : How
+        How they are measured: cells, size classes, plane.
     """
 
     path: Path
@@ -71,7 +74,7 @@ class Study:
     ranks: int
     product: bool
     observables: tuple[str, ...]
-    cell: tuple[float, float]
+    how: How
 
 
 def read_study(path: str | Path, variables: Variables | None = None, seeds: int | None = None) -> Study:
@@ -115,20 +118,21 @@ class _Reader(StudyReader):
             self.count("ranks", self.table.get("ranks", 1)),
             combine == PRODUCT,
             self.observables(),
-            self.cell(),
+            How(self.cell(), self.classes(self.table), plane=self.plane(self.table)),
         )
 
     def observables(self) -> tuple[str, ...]:
-        names = self.table.get("observables", list(OBSERVABLES))
+        self.own_observables(self.table)
+        names = self.table.get("observables", list(DEFAULT))
         if not isinstance(names, list) or not names:
             raise self.refuse("observables", names, "must be a list of names")
         for name in names:
-            if name not in OBSERVABLES:
-                raise self.refuse("observables", name, f"must be among {', '.join(OBSERVABLES)}")
+            if name not in REGISTRY:
+                raise self.refuse("observables", name, f"must be among {', '.join(REGISTRY)}")
         return tuple(dict.fromkeys(names))
 
     def cell(self) -> tuple[float, float]:
-        size = self.table.get("cell", list(CELL))
+        size = self.table.get("cell", list(How().cell))
         if (
             not isinstance(size, list)
             or len(size) != 2

@@ -7,10 +7,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from ...errors import InputError
-from ..runs import Cost, Failure, Run, Setting, read_cost
+from ...times import same_times
+from ..runs import Cost, Failure, Setting, StudyRun, read_cost
 from .errors import Error, errors_of
-from .frames import read_frames
-from .observables import Observed, observe
+from .frames import FRAMES, read_frames
+from .observe import Observed, observe
 from .settings import REFERENCE
 from .study import FEWEST_SEEDS, Study
 
@@ -62,14 +63,19 @@ class Weighed:
             if seed in other.costs
         )
 
-    def within(self, tolerance: float) -> bool:
-        """Whether all runs finished and every observable keeps the tolerance."""
-        known = [error for error in self.errors.values() if error is not None]
-        return not self.failures and len(known) == len(self.errors) and all(e.counted <= tolerance for e in known)
+    def within(self, tolerance: float) -> bool | None:
+        """Whether every observable keeps the tolerance; None where that cannot be told with these seeds.
+
+        A setting with failed runs, or one that cannot be compared, does not.
+        """
+        if self.failures or not all(self.errors.values()):
+            return False
+        told = [error.within(tolerance) for error in self.errors.values() if error is not None]
+        return False if False in told else None if None in told else True
 
 
 def weigh(
-    study: Study, runs: Sequence[Run], failures: Mapping[str, Failure], observed: dict[str, Observed]
+    study: Study, runs: Sequence[StudyRun], failures: Mapping[str, Failure], observed: dict[str, Observed]
 ) -> list[Weighed]:
     """Weigh all settings of the runs against the first, the reference.
 
@@ -77,14 +83,14 @@ def weigh(
     ----------
     study : Study
         What to observe.
-    runs : sequence of Run
+    runs : sequence of StudyRun
         Those of the reference first.
     failures : mapping of str to Failure
         Runs that failed, by key.
     observed : dict of str to Observed
         What has been observed so far, by key; runs that are missing here are read and added.
     """
-    by_setting: dict[str, list[Run]] = {}
+    by_setting: dict[str, list[StudyRun]] = {}
     for run in runs:
         by_setting.setdefault(f"{run.setting.axis}: {run.setting.name}", []).append(run)
     weighed: list[Weighed] = []
@@ -93,7 +99,7 @@ def weigh(
         done = [run for run in group if run.key not in failures]
         for run in done:
             if run.key not in observed:
-                observed[run.key] = observe(read_frames(run.folder / "frames.npz"), study.observables, study.cell)
+                observed[run.key] = observe(read_frames(run.folder / FRAMES), study.observables, study.how)
         found = {run.seed: observed[run.key] for run in done}
         failed = tuple(failures[run.key] for run in group if run.key in failures)
         if not weighed:
@@ -104,9 +110,23 @@ def weigh(
                     f"the reference has {len(reference)} finished runs, it needs {FEWEST_SEEDS}"
                     + "".join(f"; {failure.text}" for failure in failed[:1]),
                 )
+            _check_times(study, reference)
         errors = errors_of(found, reference, study.observables)
         weighed.append(Weighed(group[0].setting, {run.seed: read_cost(run) for run in done}, errors, failed))
     return weighed
+
+
+def _check_times(study: Study, reference: Mapping[int, Observed]) -> None:
+    """Refuse a reference whose seeds have frames at other times: their spread would compare different moments."""
+    (first, one), *others = reference.items()
+    for seed, other in others:
+        if not same_times(one.times, other.times):
+            there = [" ".join(f"{time:.6g}" for time in run.times[:3]) for run in (one, other)]
+            rule = (
+                f"the reference's seeds {first} and {seed} have frames at different times ({there[0]} … s, {there[1]} … s): "
+                "dumps must come at the same times, not steps (dump_modify … every/time)"
+            )
+            raise InputError(study.path, rule)
 
 
 def cheapest(weighed: Sequence[Weighed], tolerance: float) -> Weighed:
@@ -117,6 +137,12 @@ def cheapest(weighed: Sequence[Weighed], tolerance: float) -> Weighed:
     accurate = [w for w in weighed if w is weighed[0] or w.within(tolerance)]
     least = min(accurate, key=lambda w: w.core_seconds)
     return min((w for w in accurate if not least.cheaper_than(w)), key=lambda w: (w.changes, w.core_seconds))
+
+
+def untold(weighed: Sequence[Weighed], answer: Weighed, tolerance: float) -> list[Weighed]:
+    """Settings cheaper than the answer of which it cannot be told whether they keep the tolerance, cheapest first."""
+    open_ones = [w for w in weighed[1:] if w.within(tolerance) is None and w.cheaper_than(answer)]
+    return sorted(open_ones, key=lambda w: w.core_seconds)
 
 
 def front(weighed: Sequence[Weighed], error: Mapping[int, float]) -> list[int]:

@@ -8,6 +8,7 @@ Cell fractions are on the paper's scale, ten times the true ones.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -75,6 +76,18 @@ class Case:
 
 END = 0.05
 """The end of every case (s)."""
+
+SCALE = 10.0
+"""The paper's printed fractions over the true ones: it counts as if the slab were 0.3 mm thick."""
+
+CLASS_BORDERS = (300e-6, 600e-6, 900e-6)
+"""Borders of the paper's size classes (m)."""
+
+CELL = (0.01, 0.02)
+"""Width and height of the cells of the paper's 30 x 30 grid (m)."""
+
+D_P, RHO_P = 1e-4, 2000.0
+"""Diameter (m) and density (kg/m³) of the primary particles, the paper's table 1."""
 
 DIAMETER_RANGE = (181.7e-6, 1587.4e-6)
 """Smallest and largest diameters that the paper gives in every case (m)."""
@@ -169,3 +182,13 @@ CASES: dict[str, Case] = {
     ),
 }
 """The three cases by name."""
+
+
+def case_of(name: str) -> str | None:
+    """The case that a run is, by what its files' names begin with; None if it is none."""
+    return name if name in CASES else None
+
+
+def solids_of(case: str) -> float:
+    """Mass of the primary particles of a case (kg)."""
+    return CASES[case].particles * math.pi / 6 * D_P**3 * RHO_P
