@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from dataclasses import replace
 from pathlib import Path
@@ -62,6 +63,43 @@ def test_continued_lines_comments_and_quotes(tmp_path):
     (tmp_path / "in.run").write_text(text + "read_data ${inputs}/data.txt\n")
     script = read_script(tmp_path / "in.run", {"inputs": str(tmp_path)})
     assert [file.name for file in script.files] == ["in.run", "more.in", "data.txt"]
+
+
+def test_a_pattern_names_every_file_that_matches(tmp_path):
+    for number in (0, 1, 10):
+        (tmp_path / f"gas.{number}.vtk").write_text("")
+    (tmp_path / "in.run").write_text('fix drag all drag/cluster 1 1 field "${inputs}/gas.*.vtk loop 0.1"\n')
+    script = read_script(tmp_path / "in.run", {"inputs": str(tmp_path)})
+    assert [file.name for file in script.files] == ["in.run", "gas.0.vtk", "gas.1.vtk", "gas.10.vtk"]
+
+
+def test_a_changed_file_of_a_pattern_changes_the_key(study):
+    common = study.input.parent / "common.in"
+    common.write_text(common.read_text() + "variable g index ${inputs}/gas.*.vtk\n")
+    gas = study.input.parent / "gas.1.vtk"
+    gas.write_text("3")
+    before = keys(study)
+    gas.write_text("9")
+    changed = keys(study)
+    assert not set(before) & set(changed)
+    (study.input.parent / "gas.2.vtk").write_text("")  # one more frame of the series
+    assert not set(changed) & set(keys(study))
+
+
+def test_what_a_wrapper_starts_belongs_to_the_engine(tmp_path):
+    """A script that starts a copy of an executable: another copy is another engine, though the script is the same."""
+    real = Path(os.environ.get("CLUSTERDEM_LMP") or Path(__file__).parents[2] / "build/bin/lmp")
+    if not real.exists():
+        pytest.skip("no engine: build/bin/lmp is missing")
+    behind = find_engine(str(real)).files[1]
+    copy = shutil.copy(behind, tmp_path / "copy")
+    (tmp_path / "lmp").write_text(f'#!/bin/sh\nexec "${{OTHER:-{copy}}}" "$@"\n')
+    (tmp_path / "lmp").chmod(0o755)
+    engine = find_engine(str(tmp_path / "lmp"))
+    assert Path(copy) in engine.files and not engine.changed
+    with open(copy, "ab") as file:
+        file.write(b"built anew")
+    assert engine.changed and find_engine(str(tmp_path / "lmp")).identity != engine.identity
 
 
 def test_an_include_that_is_not_found_names_its_line(tmp_path):
