@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import csv
+import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,7 +13,7 @@ from clusterdem.analysis.grid import Grid, maps_of
 from clusterdem.analysis.nonuniformity import lateral, measure, strips
 from clusterdem.analysis.sizes import histogram
 from clusterdem.errors import InputError
-from clusterdem.frame import Frame
+from clusterdem.frame import Box, Frame
 from clusterdem.io.enginelog import read_log
 from clusterdem.io.series import event_rates, read_series
 from clusterdem.published.cases import CASES, CLASS_BORDERS
@@ -59,6 +61,61 @@ def test_a_run_that_is_row_a_agrees_with_row_a(case):
     assert line.difference(1) == pytest.approx(100 * (scaled / ((low + high) / 2) - 1))
     text = as_text(result)
     assert "paper" in text and "row A" in text and "ten times" in text
+
+
+def paper_run(case, particles, count, time=0.05, seed=1):
+    """A frame with so many clusters of so many particles in all, of the paper's size."""
+    box = Box((0.0, 0.0, 0.0), (0.3, 0.003, 0.6), (True, False, True))
+    frame = random_frame(count, 1, time, seed, box)
+    n = np.full(count, particles / count)
+    columns = dict(frame.columns, n=n, mass=n * np.pi / 6 * 1e-12 * 2000, diameter=1e-4 * np.cbrt(2 * n))
+    return moment_of(Frame(1, time, box, columns))
+
+
+def lines_of(result):
+    return {line.name: line for line in result.lines}
+
+
+def test_solids_are_compared_first_and_clusters_per_solids():
+    """A tenth of the solids with a tenth of the clusters is the case itself, not −90 %."""
+    result = compare([paper_run("case1", 200_000, 6252)], "case1")
+    assert result.lines[0].name == "primary particles" and result.lines[0].difference(0) == pytest.approx(-90)
+    assert "10 % of the case's solids: numbers of clusters are multiplied by 10." in result.notes[0]
+    assert lines_of(result)["clusters at 0.05 s"].difference(0) == pytest.approx(100 * (62520 / 62524 - 1))
+    whole = compare([paper_run("case1", 2_000_000, 62524)], "case1")
+    assert whole.notes == () and lines_of(whole)["clusters at 0.05 s"].difference(0) == pytest.approx(0)
+
+
+def test_the_nearest_frame_counts():
+    result = compare(
+        [paper_run("case1", 2_000_000, 60000, 0.0498), paper_run("case1", 2_000_000, 9000, 0.0195)], "case1"
+    )
+    assert lines_of(result)["clusters at 0.05 s"].run == 60000 and np.isnan(lines_of(result)["clusters at 0.02 s"].run)
+    assert result.notes == ("The frame at 0.0498 s stands for 0.05 s.",)
+
+
+def test_verdicts_are_relative_to_the_published_number_and_the_spread_of_seeds():
+    """Classes of 1.5 % agree within 15 % of that (and the seeds' 2.6 %), not within five points."""
+    line = lines_of(compare([paper_run("case1", 2_000_000, 60000)], "case1"))["600-900 µm at 0.05 s"]
+    assert line.targets[0] == (1.5, 1.5) and line.spread == pytest.approx(0.1 / 3.9)
+    assert [replace(line, run=run).agrees(0) for run in (1.5, 1.75, 1.77, 1.2, 4.0)] == [
+        True,
+        True,
+        False,
+        False,
+        False,
+    ]
+    count = lines_of(compare([paper_run("case1", 2_000_000, 60000)], "case1"))["clusters at 0.05 s"]
+    within = 62524 * (1.15 + (65786 - 65570) / (65786 + 65570))
+    assert replace(count, run=within - 1).agrees(0) and not replace(count, run=within + 1).agrees(0)
+
+
+def test_a_difference_is_printed_once(tmp_path, command):
+    dumps = write_run(tmp_path, 6)
+    _, out, _ = command("compare", *dumps, "--case", "case1")
+    table, _, verdicts = out.rpartition("\n\n")
+    assert re.search(r"[+-]\d+\.\d (%|pt)", table) and not re.search(r"[+-]\d", verdicts)
+    assert "paper: agrees in" in verdicts and "differs in clusters at 0.01 s" in verdicts
 
 
 def test_compare_command_and_rows(tmp_path, command):

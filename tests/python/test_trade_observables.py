@@ -147,6 +147,18 @@ def test_runs_that_cannot_be_compared():
     assert errors_of({}, reference, ("map",))["map"] is None
 
 
+def test_seeds_of_a_reference_that_have_other_times_are_not_compared():
+    reference = {1: run([1.0, 2.0], 4, 1.0), 2: run([1.0, 2.0], 4, 1.2), 3: run([1.0, 1.7], 4, 1.1)}
+    assert errors_of({1: run([1.0, 2.0], 4, 1.0)}, reference, ("map",))["map"] is None
+
+
+def test_what_is_nowhere_is_no_difference():
+    """A strip without clusters in both is none; in one of them alone it cannot be bridged."""
+    nan = math.nan
+    assert distance(np.array([1.0, nan]), np.array([2.0, nan]), np.array([2.0, nan])) == 0.5
+    assert distance(np.array([1.0, nan]), np.array([2.0, 1.0]), np.array([2.0, 1.0])) == math.inf
+
+
 def test_only_seeds_in_common_are_compared_but_the_spread_is_of_all():
     reference = {seed: run([1.0], 1, float(seed)) for seed in (9, 10, 11)}
     error = errors_of({9: run([1.0], 1, 9.0), 11: run([1.0], 1, 11.0)}, reference, ("map",))["map"]

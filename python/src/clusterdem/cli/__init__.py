@@ -22,7 +22,7 @@ COMMANDS = (
     "map", "sizes", "compare", "report", "profile", "scatter", "film", "vtk", "table", "start", "gas", "trade", "calibrate",
 )  # fmt: skip
 
-OPTIONS = {"method": "--deposit", "density": "--rho", "edges": "--bin", "shape": "--grid", "executable": "--lmp"}
+OPTIONS = {"method": "--deposit", "density": "--rho", "borders": "--classes", "shape": "--grid", "executable": "--lmp"}
 """Options by the arguments of the library that they set, where the two have different names."""
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import MDAnalysis
 import numpy as np
@@ -20,6 +21,22 @@ class ParticleCounts(AtomAttr):  # type: ignore[misc]
     """Primary particles in each cluster."""
 
     attrname, singular, dtype = "particle_counts", "particle_count", np.int64
+
+
+class _Frames(MemoryReader):  # type: ignore[misc]
+    """Frames in memory, each with its own step, time and origin in ``ts.data``."""
+
+    format = "CLUSTERDEM"
+
+    def __init__(self, places: Any, heads: Sequence[Frame], origins: Sequence[Floats], **options: Any) -> None:
+        self._heads, self._origins = heads, origins
+        super().__init__(places, **options)
+
+    def _read_next_timestep(self, ts: Any = None) -> Any:
+        ts = super()._read_next_timestep(ts)
+        head = self._heads[ts.frame]
+        ts.data.update(step=head.step, time=head.time, origin=self._origins[ts.frame])
+        return ts
 
 
 def to_universe(frame: Frame, shift: bool = True) -> MDAnalysis.Universe:
@@ -83,16 +100,12 @@ def run_universe(frames: Sequence[Frame], shift: bool = True) -> MDAnalysis.Univ
     )
     universe.load_new(
         np.stack([p - o for p, o in zip(positions, origins)]).astype(np.float32),
-        format=MemoryReader,
+        format=_Frames,
+        heads=[frame.head for frame in frames],
+        origins=origins,
         velocities=None if moving is None else np.stack(moving).astype(np.float32),
         dimensions=np.array([[*(LENGTH * side for side in frame.box.lengths), 90.0, 90.0, 90.0] for frame in frames]),
     )
-
-    def say(ts: MDAnalysis.coordinates.timestep.Timestep) -> MDAnalysis.coordinates.timestep.Timestep:
-        ts.data.update(step=frames[ts.frame].step, time=frames[ts.frame].time, origin=origins[ts.frame])
-        return ts
-
-    universe.trajectory.add_transformations(say)
     return universe
 
 

@@ -168,8 +168,8 @@ def compare(moments: Iterable[Moment], case: str, rows: Sequence[str] = ("paper"
     factor = 1.0
     lines: list[Line] = []
     if domain is not None:
-        target = (float(known.particles),) * 2
-        lines.append(Line("primary particles", "", domain.particles, tuple(target for _ in sources)))
+        target = (float(known.particles), float(known.particles))  # all sources have them in common: told once
+        lines.append(Line("primary particles", "", domain.particles, (target, *(None for _ in sources[1:]))))
         if domain.particles > 0 and abs(domain.particles / known.particles - 1) > SAME_SOLIDS:
             factor = known.particles / domain.particles
             notes.append(
