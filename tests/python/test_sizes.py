@@ -114,7 +114,7 @@ def test_a_difference_is_printed_once(tmp_path, command):
     dumps = write_run(tmp_path, 6)
     _, out, _ = command("compare", *dumps, "--case", "case1")
     table, _, verdicts = out.rpartition("\n\n")
-    assert re.search(r"[+-]\d+\.\d (%|pt)", table) and not re.search(r"[+-]\d", verdicts)
+    assert re.search(r"[+-]\d+\.\d (%|pt)", table) and not re.search(r"[+-]\d+\.\d", verdicts)
     assert "paper: agrees in" in verdicts and "differs in clusters at 0.01 s" in verdicts
 
 

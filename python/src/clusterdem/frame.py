@@ -90,8 +90,8 @@ class Frame:
     >>> frame = Frame(10, 0.5, Box((0, 0, 0), (0.3, 0.003, 0.6)), {k: np.array(v) for k, v in columns.items()})
     >>> len(frame), frame.label, float(frame["x"][0])
     (1, 't = 0.5 s', 0.1)
-    >>> float(frame.with_density(2500.0).solids[0])  # m³
-    4e-10
+    >>> f"{frame.with_density(2500.0).solids[0]:.1e} m³"
+    '4.0e-10 m³'
     """
 
     step: int

@@ -36,7 +36,9 @@ def _summary(command: str) -> str:
 
 def parser(wanted: str | None = None) -> argparse.ArgumentParser:
     """The argument parser with all commands; the options of the wanted one alone."""
-    top = argparse.ArgumentParser(prog="clusterdem", description="Post-processing of cluster DEM runs.")
+    top = argparse.ArgumentParser(
+        prog="clusterdem", description="Post-processing of cluster DEM runs.", allow_abbrev=False
+    )
     top.add_argument("--version", action="version", version=f"clusterdem {__version__}")
     commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name in COMMANDS:
@@ -49,6 +51,7 @@ def parser(wanted: str | None = None) -> argparse.ArgumentParser:
             help=_summary(name),
             description=(module.__doc__ or "").strip(),
             formatter_class=argparse.RawDescriptionHelpFormatter,
+            allow_abbrev=False,  # half an option is a typo
         )
         module.add_arguments(sub)
         sub.set_defaults(run=module.run)
