@@ -32,7 +32,7 @@ START = frame([0.001], [0.001], [1e-3], step=0)
 
 
 def observed(*frames, cell=(0.01, 0.01)):
-    return observe([START, *frames], DEFAULT, How(cell))
+    return observe([START, *frames], DEFAULT, How(cell, (3e-4, 6e-4, 9e-4)))
 
 
 def test_two_clusters_by_hand():
@@ -59,6 +59,15 @@ def test_the_start_is_left_out_and_one_is_not_enough():
     assert found.times == pytest.approx([5e-3, 9e-3]) and found.values["map"].shape == (2, 4)
     with pytest.raises(InputError, match="no frame after the start"):
         observe([START], ("clusters",), How())
+
+
+def test_cells_and_classes_that_are_open_follow_from_the_reference():
+    """Diameters 1 to 5 mm in a box of 20 mm: 30 x 30 cells, borders at 2, 3 and 4 mm; what is said stays."""
+    frames = [frame([0.01, 0.01], [0.01, 0.01], [1e-3, 3e-3]), frame([0.01], [0.01], [5e-3])]
+    how = How().settled(frames)
+    assert how.cell == pytest.approx((0.02 / 30, 0.02 / 30)) and how.borders == pytest.approx((2e-3, 3e-3, 4e-3))
+    assert how.grid(frames[0]).shape == (30, 30) and How((1, 1), (1e-4,)).settled(frames) == How((1, 1), (1e-4,))
+    assert How().settled([]) == How()
 
 
 def test_cells_keep_their_size_in_another_box():

@@ -15,17 +15,19 @@ from __future__ import annotations
 
 import importlib.util
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from .analysis.grid import Grid, grid_of_cells, solids_fraction
 from .analysis.nonuniformity import lateral, measure, strips
-from .analysis.sizes import class_names, class_shares, mean_diameter, sauter_diameter
+from .analysis.sizes import borders_of, class_names, class_shares, mean_diameter, sauter_diameter
 from .errors import ArgumentError, InputError
 from .frame import Floats, Frame
-from .published.cases import CELL, CLASS_BORDERS
+
+SHAPE = (30, 30)
+"""Cells of a map where nothing else is said."""
 
 
 @dataclass(frozen=True)
@@ -34,24 +36,37 @@ class How:
 
     Parameters
     ----------
-    cell : (float, float)
-        Width and height of a map's cell (m).
+    cell : (float, float), optional
+        Width and height of a map's cell (m); 30 by 30 cells by default.
     borders : tuple of float
-        Borders of the size classes (m).
+        Borders of the size classes (m); none for one class of all.
     strips : int
         Strips from centre to wall.
     plane : str
         The plane of the maps; its first axis is the width.
     """
 
-    cell: tuple[float, float] = CELL
-    borders: tuple[float, ...] = CLASS_BORDERS
+    cell: tuple[float, float] | None = None
+    borders: tuple[float, ...] = ()
     strips: int = 6
     plane: str = "xz"
 
     def grid(self, frame: Frame) -> Grid:
         """The frame's grid."""
+        if self.cell is None:
+            return Grid(frame.box, *SHAPE, self.plane)
         return grid_of_cells(frame.box, self.cell, self.plane)
+
+    def settled(self, frames: Sequence[Frame]) -> How:
+        """The same with cells and classes that follow from frames, where they are open: for all that is compared with these."""
+        cell, borders = self.cell, self.borders
+        if cell is None and frames:
+            width, height = self.grid(frames[0]).spacing
+            cell = (width, height)
+        sizes = [extreme for frame in frames if len(frame) for extreme in (frame.diameter.min(), frame.diameter.max())]
+        if not borders and sizes:
+            borders = borders_of(float(min(sizes)), float(max(sizes)))
+        return replace(self, cell=cell, borders=borders)
 
 
 def _one(how: How) -> tuple[str, ...]:

@@ -20,7 +20,7 @@ MOST_PANELS = 6
 
 @dataclass(frozen=True)
 class Field:
-    """How one kind of map is drawn: name in the data, colour-bar label, factor to the label's unit, colours."""
+    """How one kind of map is drawn: name in the data, colour-bar label, factor to the label's unit, colours, what to know."""
 
     name: str
     label: str
@@ -29,6 +29,10 @@ class Field:
     from_zero: bool = True
     diverging: bool = False
     clipped: bool = False
+    note: str = ""
+
+
+ABOUT_ITS_MEAN = "about each cell's own mean: of n clusters of one mass (n − 1)/n of what more of them would show"
 
 
 def fields_of(plane: str) -> list[Field]:
@@ -41,13 +45,7 @@ def fields_of(plane: str) -> list[Field]:
             Field(f"velocity_{axis}", f"solids velocity $v_{axis}$ (m/s)", 1.0, "viridis", False, True, True)
             for axis in reversed(plane)
         ),
-        Field(
-            "temperature",
-            "granular temperature about the cell's mean\n(n clusters: (n−1)/n of it; m²/s²)",
-            1.0,
-            "magma",
-            clipped=True,
-        ),
+        Field("temperature", "granular temperature (m²/s²)", 1.0, "magma", clipped=True, note=ABOUT_ITS_MEAN),
     ]
 
 
@@ -127,8 +125,9 @@ def draw_maps(
         extend = {(False, False): "neither", (True, False): "max", (False, True): "min", (True, True): "both"}
         bar = figure.colorbar(image, ax=list(axes), extend=extend[(over, under)], aspect=25, pad=0.02, fraction=0.06)
         bar.outline.set_linewidth(0.5)
-        if field.name == "fraction" and words:
-            figure.supxlabel(f"with {words}", fontsize=6)
+        note = f"with {words}" if field.name == "fraction" and words else field.note
+        if note:
+            figure.supxlabel(note, fontsize=6)
         if field.name == "fraction" and scale is not None:
             bar.ax.yaxis.set_ticks_position("left")
             right = bar.ax.secondary_yaxis(

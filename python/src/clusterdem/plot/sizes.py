@@ -55,7 +55,7 @@ def draw_sizes(times: Floats, steps: NDArray[np.int64], sizes: Mapping[str, Floa
         mean.set_ylabel("mean diameter (µm)")
         mean.set_ylim(0, 1.08e6 * top(sizes["mass_mean_diameter"]))
         mean.legend(frameon=False, loc="lower left", ncols=1, handlelength=1.5)
-        shares = np.nan_to_num(sizes["size_classes"])
+        shares = sizes["size_classes"]  # NaN without clusters: a gap
         colours = colormaps["viridis"](np.linspace(0.1, 0.95, len(classes)))
         base = np.zeros(len(t))
         for i, name in enumerate(classes):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,7 @@ from typing import Any
 from .. import observables
 from ..analysis.sizes import check_borders
 from ..errors import ArgumentError, InputError
+from ..published.cases import CLASS_BORDERS, case_of
 
 Variables = dict[str, str]
 """LAMMPS index variables by name, each given as ``-var NAME VALUE``."""
@@ -110,11 +112,11 @@ class StudyReader:
             raise self.refuse("observables_file", name, "no such file (relative to the study file)")
         observables.load(self.path.parent / name)
 
-    def classes(self, table: dict[str, Any]) -> tuple[float, ...]:
-        """Borders of the size classes (m); the paper's unless the study tells its own."""
+    def classes(self, table: dict[str, Any], inputs: Sequence[Path]) -> tuple[float, ...]:
+        """Borders of the size classes (m): the study's, or the paper's where all inputs are its cases; empty if open."""
         given = table.get("classes")
         if given is None:
-            return observables.How().borders
+            return CLASS_BORDERS if all(case_of(path.stem) for path in inputs) else ()
         if not isinstance(given, list) or not given or not all(_is_number(border) for border in given):
             raise self.refuse("classes", given, "must be a list of borders of size classes (µm)")
         borders = tuple(1e-6 * float(border) for border in given)

@@ -9,7 +9,7 @@ from typing import Any
 
 from ...errors import InputError
 from ...observables import REGISTRY, How, find
-from ...published.cases import CASES, solids_of
+from ...published.cases import CASES, CLASS_BORDERS, solids_of
 from ..file import StudyReader, Variables, load_table
 from .parameters import PLACE, Choice, Parameter, Point, Real
 from .targets import ABOVE, BELOW, EQUAL, ERROR, Target, evenly, published_targets
@@ -181,7 +181,8 @@ class _Reader(StudyReader):
     def calibration(self, over: Variables) -> Calibration:
         self.only(KEYS, self.table)
         self.own_observables(self.table)
-        self.how = How(borders=self.classes(self.table), plane=self.plane(self.table))
+        scripts = [self.input(case) for case in self.tables("case", self.table)]
+        self.how = How(borders=self.classes(self.table, scripts), plane=self.plane(self.table))
         parameters = self.parameters()
         ranks = self.count("ranks", self.table.get("ranks", 1))
         common = self.variables("variables", self.table.get("variables", {}))
@@ -314,8 +315,9 @@ class _Reader(StudyReader):
             published = table["published"]
             if published not in CASES:
                 raise self.refuse(f"{where}published", published, f"must be among {', '.join(CASES)}")
-            if self.how.borders != How().borders:
-                raise self.refuse("classes", self.table["classes"], f"published = {published!r} has the paper's own")
+            if self.how.borders != CLASS_BORDERS:
+                rule = f"published = {published!r} has the paper's own"
+                raise self.refuse("classes", [1e6 * border for border in self.how.borders], rule)
             found += published_targets(published)
         own = [self.target(where, one) for one in self.tables("target", table, "case.")]
         found += evenly(own)
@@ -334,6 +336,10 @@ class _Reader(StudyReader):
         if len(kinds) != 1:
             raise self.refuse(f"{where}target", kinds, "needs one of value, below, above")
         part = table.get("part")
+        if name in ("size_classes", "mass_classes") and not self.how.borders:
+            raise self.refuse(
+                "classes", None, f"must name the borders of the size classes (µm), of which {name} has a target"
+            )
         if parts and part not in parts:
             raise self.refuse(f"{where}target.part", part, f"must be among {', '.join(parts)}")
         if not parts and part is not None:

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...frame import Floats, Frame
 from ...observables import How, find
-from ...published.cases import CASES, END
+from ...published.cases import CASES, CLASS_BORDERS, END
 from ...times import nearest
 
 EQUAL, BELOW, ABOVE = "value", "below", "above"
@@ -143,7 +143,7 @@ def published_targets(case: str) -> list[Target]:
     targets = [Target("clusters", time, 0, span[0]) for time, span in paper.count.items()]
     if paper.mean:
         targets.append(Target("mean_diameter", END, 0, paper.mean[0]))
-    how = How()
+    how = How(borders=CLASS_BORDERS)
     classes, strips = (find(name).parts(how) for name in ("size_classes", "strip_diameter"))
     for part, span in enumerate(paper.classes):
         targets.append(Target("size_classes", END, part, span[0], part_name=classes[part]))

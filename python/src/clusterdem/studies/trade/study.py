@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ...errors import InputError
 from ...observables import REGISTRY, How
+from ...published.cases import CELL, case_of
 from ..file import StudyReader, Variables, load_table
 from .observe import DEFAULT
 
@@ -63,7 +64,7 @@ class Study:
     observables : tuple of str
         Names of what is compared.
     how : How
-        How they are measured: cells, size classes, plane.
+        How they are measured: cells, size classes, plane; what is open follows from the reference's frames.
     """
 
     path: Path
@@ -101,6 +102,7 @@ def read_study(path: str | Path, variables: Variables | None = None, seeds: int 
 class _Reader(StudyReader):
     def study(self) -> Study:
         self.only(KEYS, self.table)
+        script = self.input(self.table)
         variables = self.variables("variables", self.table.get("variables", {}))
         axes = (*self.switches(), *self.named_axes())
         if not axes:
@@ -111,14 +113,14 @@ class _Reader(StudyReader):
             raise self.refuse("combine", combine, f"must be {ONE_AT_A_TIME!r} or {PRODUCT!r}")
         return Study(
             self.path,
-            self.input(self.table),
+            script,
             axes,
             self.seeds(self.table.get("seeds", DEFAULT_SEEDS), FEWEST_SEEDS),
             variables,
             self.count("ranks", self.table.get("ranks", 1)),
             combine == PRODUCT,
             self.observables(),
-            How(self.cell(), self.classes(self.table), plane=self.plane(self.table)),
+            How(self.cell(script), self.classes(self.table, [script]), plane=self.plane(self.table)),
         )
 
     def observables(self) -> tuple[str, ...]:
@@ -131,8 +133,10 @@ class _Reader(StudyReader):
                 raise self.refuse("observables", name, f"must be among {', '.join(REGISTRY)}")
         return tuple(dict.fromkeys(names))
 
-    def cell(self) -> tuple[float, float]:
-        size = self.table.get("cell", list(How().cell))
+    def cell(self, script: Path) -> tuple[float, float] | None:
+        if "cell" not in self.table:
+            return CELL if case_of(script.stem) else None
+        size = self.table["cell"]
         if (
             not isinstance(size, list)
             or len(size) != 2

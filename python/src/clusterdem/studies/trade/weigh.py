@@ -95,11 +95,14 @@ def weigh(
         by_setting.setdefault(f"{run.setting.axis}: {run.setting.name}", []).append(run)
     weighed: list[Weighed] = []
     reference: dict[int, Observed] = {}
+    how = study.how
     for group in by_setting.values():
         done = [run for run in group if run.key not in failures]
+        if not weighed:
+            how = study.how.settled([frame for run in done for frame in read_frames(run.folder / FRAMES)])
         for run in done:
             if run.key not in observed:
-                observed[run.key] = observe(read_frames(run.folder / FRAMES), study.observables, study.how)
+                observed[run.key] = observe(read_frames(run.folder / FRAMES), study.observables, how)
         found = {run.seed: observed[run.key] for run in done}
         failed = tuple(failures[run.key] for run in group if run.key in failures)
         if not weighed:
