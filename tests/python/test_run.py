@@ -196,6 +196,15 @@ def test_the_log_tells_them_where_the_columns_do_not(tmp_path):
     assert Run(tmp_path, density=3000).primary.density == 3000
 
 
+def test_the_last_fix_of_a_log_counts(tmp_path):
+    """A script that defines the fix again, with kinds and a line that goes on: that is what ran last."""
+    again = "fix size all cluster/breakmerge 10 1e-4 2000 &\n  kind 2 2e-4 5000 K 0.1\n"
+    (tmp_path / "log.lammps").write_text(LOG + again)
+    write_dump(tmp_path / "mine.0.dump", Frame(0, 0.0, BOX, clusters_of(60e-6, 2500)), ["x", "z", "diameter", "mass"])
+    (read,) = read_dumps(tmp_path / "mine.0.dump")
+    assert read.particles.kinds == ((0, Kind(1e-4, 2000.0)), (2, Kind(2e-4, 5000.0)))
+
+
 def test_two_kinds_each_by_its_own():
     """Kinds of one size and two densities, told apart by type, or without types by mass / n; and by the columns alone."""
     light, heavy = clusters_of(60e-6, 2000, seed=1), clusters_of(60e-6, 5000, seed=2)

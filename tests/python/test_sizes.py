@@ -44,6 +44,8 @@ def test_sizes_command(tmp_path, command):
     rows = list(csv.DictReader((tmp_path / "s/sizes.csv").open()))
     assert [int(row["clusters"]) for row in rows] == [400, 800, 1200]
     assert float(rows[0]["mean"]) == random_frame(400).diameter.mean()
+    shares = [float(rows[0][f"n_{name}"]) for name in ("lt300", "300_600", "600_900", "gt900")]  # a case of the paper
+    assert shares == pytest.approx(class_shares(random_frame(400).diameter, CLASS_BORDERS).tolist())
     assert (tmp_path / "s/sizes.png").stat().st_size > 10_000 and "t = 0.02 s" in out
 
 

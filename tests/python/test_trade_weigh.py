@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
+from clusterdem import InputError
 from clusterdem.studies.runs import Cost, Failure, Setting, StudyRun
 from clusterdem.studies.trade.answer import in_words
 from clusterdem.studies.trade.errors import Error
-from clusterdem.studies.trade.weigh import Weighed, cheapest, front, untold
+from clusterdem.studies.trade.observe import Observed
+from clusterdem.studies.trade.weigh import Weighed, _check_times, cheapest, front, untold
 
 
 def weighed(axis, seconds, error, failures=()):
@@ -67,6 +71,15 @@ def test_what_failed_or_cannot_be_compared_is_no_answer():
         weighed("height", [1.0, 1.0, 1.0], None),
     )
     assert cheapest([REFERENCE, failed, other_box], 0.05) is REFERENCE
+
+
+def test_a_reference_whose_seeds_have_frames_at_other_times_is_refused():
+    """Dumps by step of a variable step: the same steps are other times."""
+    study = SimpleNamespace(path=Path("s.toml"))
+    one, same, other = (Observed(np.array(times), {}) for times in ([0.01, 0.02], [0.01001, 0.02], [0.01, 0.03]))
+    _check_times(study, {1: one, 2: same})
+    with pytest.raises(InputError, match="s.toml: the reference's seeds 1 and 3 have frames at different times"):
+        _check_times(study, {1: one, 2: same, 3: other})
 
 
 def test_front():

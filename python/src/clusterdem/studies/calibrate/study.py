@@ -421,7 +421,7 @@ class _Reader(StudyReader):
     def confirm(self, stage: Stage, starts: Mapping[str, Point]) -> Confirm:
         given = self.subtable("confirm")
         names = given.get("starts", [])
-        if not isinstance(names, list) or any(name not in starts for name in names):
+        if not isinstance(names, list) or not all(isinstance(name, str) and name in starts for name in names):
             raise self.refuse(
                 "confirm.starts", names, f"must be a list of starts ({', '.join(starts) or 'there are none'})"
             )

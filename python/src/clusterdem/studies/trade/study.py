@@ -129,7 +129,7 @@ class _Reader(StudyReader):
         if not isinstance(names, list) or not names:
             raise self.refuse("observables", names, "must be a list of names")
         for name in names:
-            if name not in REGISTRY:
+            if not isinstance(name, str) or name not in REGISTRY:
                 raise self.refuse("observables", name, f"must be among {', '.join(REGISTRY)}")
         return tuple(dict.fromkeys(names))
 
