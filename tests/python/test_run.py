@@ -246,7 +246,7 @@ def test_density_is_asked_for_where_a_cluster_is_heavier_than_any_particle(tmp_p
     with pytest.raises(ArgumentError, match="density: a cluster of 2500"):
         maps_of(frame.with_density(2400), Grid(BOX, 3, 3))
     assert "fraction" not in maps_of(frame, Grid(BOX, 3, 3), fractions=False)
-    with pytest.raises(ArgumentError, match="density: must be a positive number"):
+    with pytest.raises(ArgumentError, match="density: must be 0.001 to 1e\\+06 kg/m³, not -1"):
         frame.with_density(-1)
 
 

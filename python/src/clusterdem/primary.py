@@ -22,6 +22,9 @@ Floats = NDArray[np.float64]
 ASSUMED = 2000.0
 """Density (kg/m³) where nothing tells another: that of the paper's particles."""
 
+LIGHTEST, HEAVIEST = 1e-3, 1e6
+"""What a density may be (kg/m³): an aerogel's grain to more than any metal."""
+
 VOIDAGE = 0.5
 """Between the particles of a cluster, as ``fix cluster/breakmerge`` has it by default."""
 
@@ -74,8 +77,8 @@ class Primary:
     @classmethod
     def of_density(cls, density: float, source: str = "given") -> Primary:
         """One kind, of which only the density (kg/m³) is known."""
-        if not 0 < density < np.inf:
-            raise ArgumentError("density", f"must be a positive number (kg/m³), not {density:g}")
+        if not LIGHTEST <= density <= HEAVIEST:
+            raise ArgumentError("density", f"must be {LIGHTEST:g} to {HEAVIEST:g} kg/m³, not {density:g}")
         return cls(((0, Kind(float("nan"), density)),), source)
 
     @property

@@ -106,7 +106,7 @@ def draw_histograms(
             axis.set_xlabel("cluster diameter (µm)")
             axis.set_ylabel(f"share per bin (% {title})")
             axis.set_xlim(1e6 * edges[0], 1e6 * edges[-1])
-            if any(np.nansum(shares[which]) > 0 for shares in histograms):
+            if any(np.nansum(shares[which][1:-1]) > 0 for shares in histograms):
                 axis.set_yscale("log")
             axis.set_ylim(0.01, 110)
             axis.set_yticks([0.01, 0.1, 1, 10, 100], labels=["0.01", "0.1", "1", "10", "100"])
