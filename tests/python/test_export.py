@@ -15,7 +15,7 @@ from clusterdem.analysis.correlation import pair_correlation
 from clusterdem.frame import Box, Frame
 from clusterdem.io.universe import run_universe, to_universe
 from PIL import Image
-from synthetic import BOX, random_frame, write_run
+from synthetic import BOX, random_frame, write_dump, write_run
 
 
 def arrays(path):
@@ -82,6 +82,10 @@ def test_vtk_reads_time_and_vectors(tmp_path, command):
         for axis, letter in enumerate("xyz"):
             mean = np.average(frame[f"v{letter}"][inside], weights=frame.mass[inside]) if letter in plane else 0.0
             assert velocity[cell, axis] == pytest.approx(mean, rel=1e-12)
+    without = write_dump(tmp_path / "steps.dump", Frame(7, np.nan, BOX, frame.columns), time=False)
+    assert command("vtk", without, "--out", tmp_path / "steps")[0] == 0
+    assert "TimeValue" not in (tmp_path / "steps/maps.0000000007.vti").read_text()
+    assert 'timestep="7.0"' in (tmp_path / "steps/maps.pvd").read_text()
     points = vtk.vtkXMLPolyDataReader()
     points.SetFileName(str(tmp_path / "xz" / "clusters.0000010000.vtp"))
     points.Update()

@@ -28,6 +28,13 @@ def _array(name: str, values: NDArray[np.generic], tuples: bool = False) -> str:
     return f'<DataArray type="{kind}" Name={quoteattr(name)}{parts} format="binary">{base64.b64encode(raw).decode()}</DataArray>\n'
 
 
+def _time(time: float) -> str:
+    """The time as VTK's readers look for it; nothing where it is not known."""
+    if np.isnan(time):
+        return ""
+    return f"<FieldData>{_array('TimeValue', np.array([time]), True)}</FieldData>\n"
+
+
 def _file(kind: str, body: str) -> str:
     return (
         '<?xml version="1.0"?>\n'
@@ -80,7 +87,7 @@ def write_points(path: str | Path, frame: Frame) -> Path:
         notes.warning("column %s holds words: VTK's files leave it out", name)
     index = np.arange(count, dtype=np.int64)
     body = (
-        f"<PolyData>\n<FieldData>{_array('TimeValue', np.array([frame.time]), True)}</FieldData>\n"
+        f"<PolyData>\n{_time(frame.time)}"
         f'<Piece NumberOfPoints="{count}" NumberOfVerts="{count}">\n'
         f'<PointData Scalars="diameter">\n{data}</PointData>\n'
         f"<Points>\n{_array('Points', np.stack([frame[axis] for axis in places], axis=1))}</Points>\n"
@@ -123,7 +130,7 @@ def write_image(path: str | Path, maps: Maps, grid: Grid, time: float) -> Path:
     origin, widths = (" ".join(repr(float(v)) for v in values) for values in (grid.box.lo, spacing))
     body = (
         f'<ImageData WholeExtent="{extent}" Origin="{origin}" Spacing="{widths}">\n'
-        f"<FieldData>{_array('TimeValue', np.array([time]), True)}</FieldData>\n"
+        f"{_time(time)}"
         f'<Piece Extent="{extent}">\n<CellData Scalars="{next(iter(maps))}">\n{data}</CellData>\n</Piece>\n</ImageData>\n'
     )
     return write_text(path, _file("ImageData", body))
