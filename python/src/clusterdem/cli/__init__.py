@@ -22,7 +22,14 @@ COMMANDS = (
     "map", "sizes", "compare", "report", "profile", "scatter", "film", "vtk", "table", "start", "gas", "trade", "calibrate",
 )  # fmt: skip
 
-OPTIONS = {"method": "--deposit", "density": "--rho", "borders": "--classes", "shape": "--grid", "executable": "--lmp"}
+OPTIONS = {
+    "method": "--deposit",
+    "density": "--rho",
+    "borders": "--classes",
+    "count": "--clusters",
+    "shape": "--grid",
+    "executable": "--lmp",
+}
 """Options by the arguments of the library that they set, where the two have different names."""
 
 

@@ -157,7 +157,7 @@ class Cost:
 
 @dataclass(frozen=True)
 class Failure:
-    """A run that did not end well: its command and the end of what it said."""
+    """A run that did not end well: why, and the end of what it said."""
 
     run: StudyRun
     reason: str
@@ -297,7 +297,7 @@ def _execute(run: StudyRun, workers: _Workers) -> Failure | None:
         write_text(part / OVERRAN, f"{run.limit}\n")
     os.replace(part, failed)
     tail = (failed / "screen.txt").read_text(errors="replace").splitlines()[-TAIL:]
-    return Failure(run, "\n".join([*tail, reason, f"all it said: {failed / 'screen.txt'}"]))
+    return Failure(run, "\n".join([reason, *tail, f"all it said: {failed / 'screen.txt'}"]))
 
 
 def _keep(folder: Path, keeping: Keeping) -> None:

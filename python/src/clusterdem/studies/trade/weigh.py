@@ -111,7 +111,7 @@ def weigh(
                 raise InputError(
                     study.path,
                     f"the reference has {len(reference)} finished runs, it needs {FEWEST_SEEDS}"
-                    + "".join(f"; {failure.text}" for failure in failed[:1]),
+                    + "".join(f"; {f.run.setting.name}, seed {f.run.seed}: {f.reason}" for f in failed[:1]),
                 )
             _check_times(study, reference)
         errors = errors_of(found, reference, study.observables)
