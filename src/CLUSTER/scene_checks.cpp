@@ -103,15 +103,16 @@ void SceneChecks::check_ghosts(Requirements &all, const LargestDiameters &larges
     auto need = [&](double reach, const std::string &why) {
       if (have >= reach || reach <= farthest) return;
       farthest = reach;
-      fault = fmt::format("{}: the ghost cutoff{} {} is below {}, {}", me, ghosts_of_a_type(lmp, type), ghost_reach(lmp, type),
-                          reach, why);
+      fault = fmt::format("{}: the ghost cutoff{} {} is below {}, {}", me, ghosts_of_a_type(lmp, type),
+                          ghost_reach(lmp, type), reach, why);
     };
     if (largest.in_group(type) || anyone)
       need(2.0 * claim + skin, fmt::format("twice the claim {} plus the skin", claim));
     const double radius = 0.5 * largest.outside(type);
     if (radius > 0.0)
       need(claim + radius + skin,
-           fmt::format("the claim {} plus the largest radius {} of atoms of type {} outside of the group and the skin, so that a "
+           fmt::format("the claim {} plus the largest radius {} of atoms of type {} outside of the group and the "
+                       "skin, so that a "
                        "rank would place clusters into what it does not see",
                        claim, radius, type));
   }
