@@ -84,7 +84,8 @@ std::string ContactSource::short_cutoff(const std::string &fix, const LargestDia
       if (!largest.may_meet(a, b)) continue;
       const double d_a = largest.of(a), d_b = largest.of(b), cutoff = std::sqrt(force->pair->cutsq[a][b]);
       double bond = 0.0;
-      bool touch = largest.in_group(a) && largest.in_group(b);    // others may have no contacts, if the user says so
+      bool touch =
+          largest.in_group(a) && largest.in_group(b);    // others may have no contacts, if the user says so
       for (const Pair *pair : pairs)
         if (acts(force->pair, pair, a, b)) {
           touch = true;
@@ -95,15 +96,17 @@ std::string ContactSource::short_cutoff(const std::string &fix, const LargestDia
       longest = reach;
       auto whose = [&](int type) {
         return fmt::format("{} {}", largest.of(type),
-                           largest.of(type) > largest.outside(type) ? "that the limits allow" : "outside of the group");
+                           largest.of(type) > largest.outside(type) ? "that the limits allow"
+                                                                    : "outside of the group");
       };
-      const std::string touching = d_a == d_b
-          ? "the largest cluster diameter " + whose(a)
-          : fmt::format("{}, where the largest touch, of diameters {} and {}", 0.5 * (d_a + d_b), whose(a), whose(b));
-      const std::string bonds =
-          bond > 0.0 ? fmt::format(" and the {} beyond it to which cohesion holds two", bond) : "";
+      const std::string touching = d_a == d_b ? "the largest cluster diameter " + whose(a)
+                                              : fmt::format("{}, where the largest touch, of diameters {} and {}",
+                                                            0.5 * (d_a + d_b), whose(a), whose(b));
+      const std::string bonds = bond > 0.0 ? fmt::format(" and the {} beyond it to which cohesion holds two", bond)
+                                           : "";
       fault = fmt::format(
-          "{}: the pair cutoff of types {} and {} is {}, below {}{}, so that they would overlap without a force: add "
+          "{}: the pair cutoff of types {} and {} is {}, below {}{}, so that they would overlap without a force: "
+          "add "
           "'cutoff {}' to pair_coeff of pair style granular or to pair_style gran/cluster, or for other gran/* "
           "use pair_style hybrid/overlay with 'zero {}'",
           fix, a, b, cutoff, touching, bonds, reach * 1.0001, reach * 1.0001);

@@ -29,8 +29,9 @@ static BreakMergeSettings read_settings(LAMMPS *lmp, int narg, char **arg)
 }
 
 FixClusterBreakMerge::FixClusterBreakMerge(LAMMPS *lmp, int narg, char **arg) :
-    ClusterFix(lmp, narg, arg), settings(read_settings(lmp, narg, arg)), columns{}, pairs(lmp), largest(lmp, settings.kinds, groupbit),
-    tags(lmp),    arrivals(lmp, settings.kinds, columns, tags, census, groupbit), apply(lmp, settings.kinds, columns, tags),
+    ClusterFix(lmp, narg, arg), settings(read_settings(lmp, narg, arg)), columns{}, pairs(lmp),
+    largest(lmp, settings.kinds, groupbit), tags(lmp),
+    arrivals(lmp, settings.kinds, columns, tags, census, groupbit), apply(lmp, settings.kinds, columns, tags),
     check(lmp, settings, columns, pairs, census, halo, groupbit), output{}, output_step(-1),
     resumed_from_0_1(false)
 {

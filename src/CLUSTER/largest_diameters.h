@@ -27,9 +27,12 @@ class LargestDiameters : protected EnginePointers {
 
   bool in_group(int type) const { return clusters[type] > 0; }    // are there clusters of this type?
   bool group_is_empty() const;
-  double outside(int type) const { return diameters[type]; }    // of atoms that are not in the group; 0: there are none
-  double of(int type) const;                                    // of both; 0: there are none
-  bool may_meet(int a, int b) const;                            // a type may have one atom alone
+  double outside(int type) const
+  {
+    return diameters[type];
+  }                                     // of atoms that are not in the group; 0: there are none
+  double of(int type) const;            // of both; 0: there are none
+  bool may_meet(int a, int b) const;    // a type may have one atom alone
 
  private:
   const ClusterDEM::ClusterKinds &kinds;

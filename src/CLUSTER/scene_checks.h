@@ -32,15 +32,17 @@ class SceneChecks : protected EnginePointers {
   void check_plane(Requirements &) const;      // that clusters lie in, with plane xz
   void check_step(Requirements &, double stiffness) const;    // against the contacts of the smallest clusters
   void check_room(Requirements &) const;                      // claim, periodic sides
-  void check_ghosts(Requirements &, const LargestDiameters &) const;    // that ranks see what is in the way of events
-  void check_lattice(Requirements &) const;                   // how many sites fragments may take
-  void check_part_of_box() const;    // of each rank: changes with the box and its division
+  void check_ghosts(Requirements &,
+                    const LargestDiameters &) const;    // that ranks see what is in the way of events
+  void check_lattice(Requirements &) const;             // how many sites fragments may take
+  void check_part_of_box() const;                       // of each rank: changes with the box and its division
 
  private:
   class Fix *fix;
   const std::string me;
   const BreakMergeSettings &settings;
 
+  bool reruns() const;    // positions of a dump, by command rerun
   std::string periodic_box_too_short() const;
   bigint count_outside(int other) const;    // clusters of the group that are not in the other one
 };

@@ -81,7 +81,8 @@ class ErrorWords {
   static std::string in_its_words(const std::string &message)
   {
     const std::size_t style = 4, id = message.find(' ', style) + 1, end = message.find(':', id);
-    if (message.compare(0, style, "Fix ") || !id || end == std::string::npos || message.find(' ', id) < end) return message;
+    if (message.compare(0, style, "Fix ") || !id || end == std::string::npos || message.find(' ', id) < end)
+      return message;
     return message.substr(0, id) + "(id " + message.substr(id, end - id) + ")" + message.substr(end);
   }
 };
@@ -263,7 +264,8 @@ inline std::string not_for_clusters(LAMMPS *lmp, int)
 // LIGGGHTS sends a cluster only over half of the cutoff, half of the skin and its own radius: enough for contacts
 inline double ghost_reach(LAMMPS *lmp, int)
 {
-  return 0.5 * (std::max(lmp->force->pair->cutforce + lmp->neighbor->skin, lmp->comm->cutghostuser) + lmp->neighbor->skin);
+  return 0.5 *
+      (std::max(lmp->force->pair->cutforce + lmp->neighbor->skin, lmp->comm->cutghostuser) + lmp->neighbor->skin);
 }
 inline std::string ghosts_of_a_type(LAMMPS *, int)
 {
