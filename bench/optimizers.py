@@ -15,7 +15,7 @@ import warnings
 from collections.abc import Callable
 
 import numpy as np
-from clusterdem.calibrate.search import KNOWN, STEP
+from clusterdem.studies.calibrate.search import KNOWN, STEP
 from cmaes import CatCMA
 from scipy.optimize import differential_evolution
 

@@ -114,7 +114,7 @@ def frames_of(way: Way, folder: Path, seed: int, options: str) -> tuple[list[Fra
 def map_of(frame: Frame) -> np.ndarray:
     """Primary particles per cell; a cluster's go to the cells that it overlaps."""
     grid = Grid(frame.box, *CELLS)
-    return maps_of(frame, grid, method="overlap")["mass"] / M_P
+    return maps_of(frame, grid, method="overlap", fractions=False)["mass"] / M_P
 
 
 def observe(frame: Frame) -> dict[str, float]:

@@ -106,9 +106,11 @@ void Arrivals::check_size(int i)
 
 void Arrivals::at_start_of_run()
 {
+  forget_contacts_if_renumbered();
   tagint mine = 0, all = 0;
   for (int i = 0; i < atom->nlocal; i++) {
     mine = std::max(mine, atom->tag[i]);
+    (*columns.seen)[i] = atom->tag[i];
     if (!(atom->mask[i] & groupbit)) continue;
     int &count = (*columns.count)[i];
     const int before = count;
@@ -123,13 +125,39 @@ void Arrivals::at_start_of_run()
   tags.raise(all);
 }
 
+/* ----------------------------------------------------------------------
+   Contacts are remembered by IDs. A command that gives IDs anew between two runs, such as reset_atoms id or delete_atoms with
+   compress yes, would leave the memory of one pair to another.
+------------------------------------------------------------------------- */
+
+void Arrivals::forget_contacts_if_renumbered()
+{
+  int mine = 0, any;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const tagint seen = (*columns.seen)[i];
+    if (seen && seen != atom->tag[i]) mine = 1;
+  }
+  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
+  if (!any) return;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (columns.partners) (*columns.partners)[i].clear();
+    for (Fix *memory : fixes_that_remember_contacts(lmp)) memory->set_arrays(i);
+  }
+  if (comm->me == 0)
+    error->warning(
+        FLERR,
+        fmt::format("{}: atoms have other IDs than in the last run, by which contacts are remembered: what was "
+                    "remembered of contacts is forgotten (springs of friction start anew)",
+                    me));
+}
+
 /* ---------------------------------------------------------------------- */
 
 std::vector<int> Arrivals::newcomers() const
 {
   std::vector<int> mine;
   for (int i = 0; i < atom->nlocal; i++)
-    if ((atom->mask[i] & groupbit) && (*columns.count)[i] == 0) mine.push_back(i);
+    if ((*columns.seen)[i] == 0) mine.push_back(i);
   return mine;
 }
 
@@ -140,7 +168,8 @@ std::vector<int> Arrivals::newcomers() const
 
 void Arrivals::welcome(const std::vector<int> &mine, Halo &halo)
 {
-  for (const int i : mine) census.came(particle_count(i));
+  for (const int i : mine)
+    if (atom->mask[i] & groupbit) census.came(particle_count(i));
   number_by_place(mine, halo);
 }
 
@@ -177,6 +206,7 @@ void Arrivals::number_by_place(const std::vector<int> &mine, Halo &halo)
   halo.forward(ids);
   atom->map_clear();
   std::copy(ids.begin(), ids.end(), atom->tag);
+  for (const int i : mine) (*columns.seen)[i] = atom->tag[i];
   atom->map_init();
   atom->map_set();
 }

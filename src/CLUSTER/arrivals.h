@@ -35,8 +35,8 @@ class Arrivals : protected EnginePointers {
   // mass and diameter are the size fix's to change
   void check_size(int i);
 
-  void at_start_of_run();                                // collective: counts all, and notes the highest ID
-  std::vector<int> newcomers() const;                    // owned clusters that came in since the last rebuild
+  void at_start_of_run();                // collective: counts all, and notes the highest ID
+  std::vector<int> newcomers() const;    // owned atoms, of any group, that came in since the last rebuild
   void welcome(const std::vector<int> &mine, Halo &);    // collective: counts and numbers them
 
   void note_leaving(int i);
@@ -52,6 +52,7 @@ class Arrivals : protected EnginePointers {
   bool start_counted;    // what is found from now on has come in
 
   int whole_number(int i) const;
+  void forget_contacts_if_renumbered();
   void number_by_place(const std::vector<int> &mine, Halo &);
 };
 

@@ -94,6 +94,11 @@ bool BreakMergeSettings::read_event(const std::string &keyword, StyleArguments &
       e.merge_tolerance = args.number(keyword, "yes, no, or a number > 0");
       if (!(e.merge_tolerance > 0.0)) args.refuse(keyword, "yes, no, or a number > 0");
     }
+  } else if (keyword == "carry") {
+    const std::string name = args.word("carry NAME");
+    for (const CarrySetting &said : e.carry)
+      if (said.name == name) args.refuse("carry NAME", "a value that has no rule yet");
+    e.carry.push_back({name, static_cast<CarryRule>(args.choice("carry rule", {"copy", "split", "mean", "sum"}))});
   } else if (keyword == "refused") e.break_refused = args.choice(keyword, {"leave", "break"}) == 1;
   else if (keyword == "claim") e.claim = args.positive(keyword, "length");
   else if (keyword == "region") e.region_id = args.word("region ID");

@@ -8,11 +8,13 @@
 #define LMP_BREAKMERGE_SETTINGS_H
 
 #include "model/cluster_kinds.h"
+#include "model/merging.h"
 #include "model/size_law.h"
 
 #include "engine.h"
 
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 class StyleArguments;
@@ -43,6 +45,12 @@ struct SizeSettings {
   bool looks_at_power() const { return term_cc && ncc_factor > 0.0; }
 };
 
+// what becomes of a value that clusters carry
+struct CarrySetting {
+  std::string name;
+  ClusterDEM::CarryRule rule;
+};
+
 // when clusters break and merge, and where fragments go
 struct EventSettings {
   int every = 1;    // steps between checks
@@ -56,6 +64,7 @@ struct EventSettings {
   bool plane_given = false;
   double spacing = 2.0;
   std::string region_id;    // fragments are placed inside of it
+  std::vector<CarrySetting> carry;
 };
 
 struct BreakMergeSettings {

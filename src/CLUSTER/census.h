@@ -42,6 +42,7 @@ class Census {
     CLUSTERS_FED,
     CLUSTERS_LEFT,
     E_CONTACTS,
+    E_SPIN,
     NTOTALS
   };
   using Totals = std::array<double, NTOTALS>;

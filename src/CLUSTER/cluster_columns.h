@@ -18,7 +18,8 @@ struct ClusterColumns {
   // of the per-atom array: particles, d, l, N_st, N_cc, N_smf
   enum { N, D, L, ST, CC, MF, NCOLUMNS };
 
-  ClusterTable::Values<int> *count;    // primary particles; 0: not yet known
+  ClusterTable::Values<tagint> *seen;    // the ID that an atom of any group had at the last look; 0: none yet
+  ClusterTable::Values<int> *count;      // primary particles; 0: not yet known
   ClusterTable::Shown *shown;
   ClusterTable::Lists<tagint> *partners;    // in contact at the last test (test end only)
   ClusterTable::Values<int>

@@ -11,6 +11,8 @@
 #include "model/merging.h"
 #include "model/placement.h"
 
+#include <vector>
+
 namespace LAMMPS_NS {
 
 struct Event {
@@ -21,10 +23,11 @@ struct Event {
   ClusterDEM::Body body = {};     // parent, or both combined
   ClusterDEM::Vec3 omega = {};    // of the merged cluster
   ClusterDEM::Placement placement;
-  double reach = 0.0;           // the room that it may take: a radius around the body
-  double energy_lost = 0.0;     // kinetic energy that the merge takes out
-  double energy_born = 0.0;     // elastic energy that the merged cluster puts in
-  double energy_after = 0.0;    // that its contacts hold
+  double reach = 0.0;             // the room that it may take: a radius around the body
+  double energy_lost = 0.0;       // kinetic energy that the merge takes out
+  double energy_born = 0.0;       // elastic energy that the merged cluster puts in
+  double energy_after = 0.0;      // that its contacts hold
+  std::vector<double> carried;    // values of the merged cluster (carried_values.h)
 
   bool merges() const { return j >= 0; }
   bool breaks() const { return plan.is_event(); }

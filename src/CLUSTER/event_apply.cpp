@@ -38,8 +38,10 @@ void EventApply::carry_out(const std::vector<Event> &events, std::vector<int> dy
   const int nlocal_before = atom->nlocal;
   std::size_t birth = 0;
   for (const Event &e : events) {
-    if (e.merges() && atom->omega_flag)
-      for (int axis = 0; axis < 3; axis++) atom->omega[e.i][axis] = e.omega[axis];
+    if (e.merges()) {
+      carried.merge(e);
+      for (int axis = 0; atom->omega_flag && axis < 3; axis++) atom->omega[e.i][axis] = e.omega[axis];
+    }
     if (e.breaks()) create_fragments(e, births[birth++].first);
     else become(e.i, e.plan.n, e.body.x, e.body.v);
   }
@@ -77,12 +79,14 @@ void EventApply::become(int i, int n, const Vec3 &x, const Vec3 &v)
 
 void EventApply::create_fragments(const Event &e, tagint first)
 {
+  const int newborns = atom->nlocal;
   for (int piece = 1; piece < e.plan.pieces(); piece++) {
     const int m = copy_of(e.i);
-    atom->tag[m] = first + piece - 1;
+    (*columns.seen)[m] = atom->tag[m] = first + piece - 1;
     become(m, e.plan.particles(piece), e.body.x + e.placement.centres[piece], e.body.v);
   }
   become(e.i, e.plan.particles(0), e.body.x + e.placement.centres[0], e.body.v);
+  carried.divide(e, newborns);
 }
 
 /* ----------------------------------------------------------------------

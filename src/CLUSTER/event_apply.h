@@ -9,6 +9,7 @@
 
 #include "engine.h"
 
+#include "carried_values.h"
 #include "cluster_columns.h"
 #include "event.h"
 #include "model/cluster_kinds.h"
@@ -20,8 +21,8 @@ namespace LAMMPS_NS {
 
 class EventApply : protected EnginePointers {
  public:
-  EventApply(class LAMMPS *lmp, const ClusterDEM::ClusterKinds &k, const ClusterColumns &c, NewbornTags &t) :
-      EnginePointers(lmp), kinds(k), columns(c), tags(t)
+  EventApply(class LAMMPS *lmp, const ClusterDEM::ClusterKinds &k, const ClusterColumns &c, NewbornTags &t,
+             const CarriedValues &v) : EnginePointers(lmp), kinds(k), columns(c), tags(t), carried(v)
   {
   }
 
@@ -33,6 +34,7 @@ class EventApply : protected EnginePointers {
   const ClusterDEM::ClusterKinds &kinds;
   const ClusterColumns &columns;
   NewbornTags &tags;
+  const CarriedValues &carried;
   std::vector<class Fix *> contact_memories;
 
   void become(int i, int n, const ClusterDEM::Vec3 &x, const ClusterDEM::Vec3 &v);

@@ -19,7 +19,7 @@ using namespace ClusterDEM;
 EventCheck::EventCheck(LAMMPS *lmp, const BreakMergeSettings &s, const ClusterColumns &c, ContactSource &p,
                        Census &all, Halo &h, int group) :
     EnginePointers(lmp), settings(s), columns(c), pairs(p), census(all), halo(h), groupbit(group),
-    contacts(lmp, p, h, group), sizes(lmp, s, c, group), walls(lmp, s.event)
+    contacts(lmp, p, h, group), sizes(lmp, s, c, group), walls(lmp, s.event), carried_by_clusters(lmp, s.event)
 {
 }
 
@@ -29,6 +29,7 @@ void EventCheck::init(const std::string &me, Requirements &all)
 {
   sizes.init(me);
   walls.init(me, all);
+  carried_by_clusters.init(me, all);
   const double reach = settings.event.claim / (settings.event.spacing * settings.kinds.smallest_diameter()) + 1.0;
   const bool planar = settings.event.planar;
   lattices = std::make_unique<Lattices>(planar ? 0 : -1, planar ? 2 : -1, reach);
@@ -79,6 +80,7 @@ bool EventCheck::plan(bigint step)
   if (!halo.anywhere(!to_do.empty())) return false;
   note_events();
   note_contacts();
+  if (settings.event.merging) carried_by_clusters.prepare(to_do, halo);
   return true;
 }
 
@@ -196,9 +198,27 @@ void EventCheck::note_events()
   for (const Event &e : to_do) {
     const SizeRule &rule = sizes.rule(settings.kinds.of_type(atom->type[e.i]));
     census.happened(e);
+    if (atom->omega_flag) note_spin(e);
     if (!e.merges()) census.broke(rule, columns.power(e.i), (*columns.count)[e.i], columns.diameter(e.i));
     else census.merged(rule, powers[e.i], powers[e.j], e.particles);
   }
+}
+
+/* ----------------------------------------------------------------------
+   energy of rotation that smaller or merged spheres hold no more; e.j may be a ghost
+------------------------------------------------------------------------- */
+
+void EventCheck::note_spin(const Event &e)
+{
+  const ClusterGeometry &particles = settings.kinds.geometry(atom->type[e.i]);
+  auto energy = [&](int i) { return Spinning{atom->rmass[i], atom->radius[i], to_vec3(atom->omega[i])}.energy(); };
+  double given_up = energy(e.i) + (e.merges() ? energy(e.j) : 0.0);
+  const Vec3 omega = e.merges() ? e.omega : to_vec3(atom->omega[e.i]);
+  for (int piece = 0; piece < e.plan.pieces(); piece++) {
+    const int n = e.plan.particles(piece);
+    given_up -= Spinning{particles.mass(n), 0.5 * particles.diameter(n), omega}.energy();
+  }
+  census.add(Census::E_SPIN, given_up);
 }
 
 /* ----------------------------------------------------------------------

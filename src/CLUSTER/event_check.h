@@ -10,6 +10,7 @@
 #include "engine.h"
 
 #include "breakmerge_settings.h"
+#include "carried_values.h"
 #include "census.h"
 #include "cluster_columns.h"
 #include "cluster_walls.h"
@@ -38,6 +39,7 @@ class EventCheck : protected EnginePointers {
 
   bool plan(bigint step);    // collective, after measure(): is there anything to be carried out, on any rank?
   void forget();             // what was planned
+  const CarriedValues &carried() const { return carried_by_clusters; }
   const std::vector<Event> &events() const { return to_do; }
   const std::vector<int> &dying() const { return vanishing; }    // owned clusters that vanish in merges
 
@@ -51,6 +53,7 @@ class EventCheck : protected EnginePointers {
   ContactSums contacts;
   SizeCheck sizes;
   ClusterWalls walls;
+  CarriedValues carried_by_clusters;
   std::unique_ptr<ClusterDEM::Lattices> lattices;
   std::vector<Event> to_do;
   std::vector<int> vanishing;
@@ -64,6 +67,7 @@ class EventCheck : protected EnginePointers {
   std::vector<Touch> touches() const;
   void note_events();
   void note_contacts();
+  void note_spin(const Event &);
 };
 
 }    // namespace LAMMPS_NS

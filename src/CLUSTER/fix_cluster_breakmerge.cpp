@@ -31,9 +31,9 @@ static BreakMergeSettings read_settings(LAMMPS *lmp, int narg, char **arg)
 FixClusterBreakMerge::FixClusterBreakMerge(LAMMPS *lmp, int narg, char **arg) :
     ClusterFix(lmp, narg, arg), settings(read_settings(lmp, narg, arg)), columns{}, pairs(lmp),
     largest(lmp, settings.kinds, groupbit), tags(lmp),
-    arrivals(lmp, settings.kinds, columns, tags, census, groupbit), apply(lmp, settings.kinds, columns, tags),
-    check(lmp, settings, columns, pairs, census, halo, groupbit), output{}, output_step(-1),
-    resumed_from_0_1(false)
+    arrivals(lmp, settings.kinds, columns, tags, census, groupbit),
+    check(lmp, settings, columns, pairs, census, halo, groupbit),
+    apply(lmp, settings.kinds, columns, tags, check.carried()), output{}, output_step(-1), resumed_from_0_1(false)
 {
   nevery = settings.event.every;
   force_reneighbor = 1;
@@ -54,6 +54,7 @@ FixClusterBreakMerge::FixClusterBreakMerge(LAMMPS *lmp, int narg, char **arg) :
   use_hash_map(atom, domain);    // newborns find room and partners through it
 
   columns.count = &table.add<int>(ClusterTable::CARRIED);
+  columns.seen = &table.add<tagint>(ClusterTable::CARRIED);
   columns.shown = shown = &table.add_shown(ClusterColumns::NCOLUMNS);
   if (settings.event.test == EventSettings::CONTACT_ENDED)
     columns.partners = &table.add_lists<tagint>(ClusterTable::KEPT);

@@ -61,8 +61,8 @@ class FixClusterBreakMerge : public ClusterFix, public ClusterDEM::KnowsClusterK
   Census census;
   NewbornTags tags;
   Arrivals arrivals;
-  EventApply apply;
   EventCheck check;
+  EventApply apply;
   double output[5 + Census::NTOTALS];
   bigint output_step;
 

@@ -14,7 +14,7 @@ NAMES = (
     "drag contact weight"
 ).split()
 FLOW = 4  # entries after these: particles and clusters that came in and left
-ENERGIES = 1  # and after those: of contacts that vanished
+ENERGIES = 2  # and after those: of contacts that vanished, of spins
 
 
 def needs(result, row: int = -1) -> dict[str, float]:

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from clusterdem.start import write_start
+from clusterdem.io.start import write_start
 from lammps_run import ROOT, run_file
 from lammps_run import run as run_lammps
 from liggghts_run import agree, in_both, needs_liggghts, run_liggghts, write_data

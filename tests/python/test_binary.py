@@ -46,7 +46,7 @@ def test_a_share_and_some_columns(tmp_path):
         (lambda text: text[:-9], "ends inside"),
         (lambda text: text[:60], "ends inside"),
         (lambda text: text + b"more", "binary2txt"),
-        (lambda text: text + text, "rise in time"),
+        (lambda text: text + binary(random_frame(20, 4, 0.1)), "rise in time"),
         (lambda text: text.replace(b"si", b"lj"), "units must be si"),
         (lambda text: text[:-8] + struct.pack("<d", np.nan), "finite"),
     ],

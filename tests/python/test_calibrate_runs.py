@@ -143,7 +143,7 @@ def test_a_run_beyond_its_limit_counts_as_worst_and_is_not_tried_again(place, co
     assert command(*place.arguments)[0] == 0 and place.launched() == 0
 
 
-def test_a_run_that_fails_ends_the_study_with_its_words(place, command):
+def test_a_run_that_fails_is_a_bad_trial_and_the_study_goes_on(place, command):
     place.study(STUDY.replace('choices = ["gas", "rest"]', "choices = [1, 2]").replace('begin = "gas"', "begin = 1"))
     place.study(
         (place.folder / "tiny.toml")
@@ -154,7 +154,29 @@ def test_a_run_that_fails_ends_the_study_with_its_words(place, command):
         .replace("trials = 3", "trials = 12")
     )
     code, _, err = command(*place.arguments)
-    assert code == 2 and "a run failed" in err and "spacing = wide" in err and "ERROR" in err
+    assert code == 0 and "12 of 12 trials, best loss" in err
+    report = (place.out / "tiny.md").read_text()
+    assert "## Runs that failed" in report and "spacing = wide" in report and "ERROR" in report
+    with open(place.out / "tiny.csv") as file:
+        rows = list(csv.DictReader(file))
+    bad = [row for row in rows if row["spacing"] == "wide"]
+    assert bad and all(row["case1 N(0.002)"] == "nan" for row in bad)
+    assert min(float(row["loss"]) for row in bad) > max(float(r["loss"]) for r in rows if r not in bad)
+
+
+def test_a_study_whose_every_start_fails_ends_with_the_words_of_the_engine(place, command):
+    place.study(STUDY.replace("tend = 0.002", "tend = 0.002\nn_max = 3000"))
+    code, _, err = command(*place.arguments)
+    assert code == 2 and "no start gives a number" in err and "ghost cutoff" in err
+
+
+def test_each_case_may_have_its_own_limit(place, command):
+    """As below, but the limit of one core-second stands in the case, over the stage's of 20."""
+    slow = STUDY.replace("solids = 2.0944e-3", "solids = 2.0944e-3\nlimit = 1")
+    slow = slow.replace("tend = 0.002", "tend = 0.002\ndt = 1e-8\nevery = 1")
+    place.study(slow.split("[local]")[0].replace("trials = 3", "trials = 1"))
+    assert command(*place.arguments)[0] == 0
+    assert place.launched() == 2 and "none" in (place.out / "tiny.md").read_text()
 
 
 def test_variables_that_the_script_does_not_know_are_refused(place, command):

@@ -9,14 +9,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from clusterdem.calibrate.figure import draw_fit
-from clusterdem.calibrate.fit import carry_out
-from clusterdem.calibrate.identify import identify, in_words
-from clusterdem.calibrate.local import explore
-from clusterdem.calibrate.parameters import Choice, Real
-from clusterdem.calibrate.score import spread_of, yardstick
-from clusterdem.calibrate.study import Calibration, Case, Confirm, Local, Search, Stage
-from clusterdem.calibrate.targets import Target
+from clusterdem.studies.calibrate.figure import draw_fit
+from clusterdem.studies.calibrate.fit import carry_out
+from clusterdem.studies.calibrate.identify import identify, in_words
+from clusterdem.studies.calibrate.local import explore
+from clusterdem.studies.calibrate.parameters import Choice, Real
+from clusterdem.studies.calibrate.score import spread_of, yardstick
+from clusterdem.studies.calibrate.study import Calibration, Case, Confirm, Local, Search, Stage
+from clusterdem.studies.calibrate.targets import Target
 
 TIMES = np.linspace(0.01, 0.06, 6)
 NOISE = 0.02
@@ -228,6 +228,56 @@ def test_a_stage_is_what_the_model_gets():
     )
     carry_out(study, Noting(exponential))
     assert seen == {(), (("height", "1"),)}
+
+
+def test_every_polishing_step_starts_where_the_one_before_ended():
+    """A valley along a bent line: one Gauss-Newton step of bounded length does not reach its end, three come nearer."""
+
+    def law(point):
+        return point["a"] * np.exp(TIMES / point["tau"])
+
+    parameters = (Real("a", 10, 1000, log=True), Real("tau", 0.005, 0.5, log=True))
+    start = {"far": {"a": 700.0, "tau": 0.2}}
+    truth = law({"a": 30.0, "tau": 0.02})
+    losses = {}
+    for steps in (1, 3):
+        study = study_of(truth, parameters, start, trials=1, local=Local({}, (1, 2), None, polish=steps))
+        fit = carry_out(study, Growth(law))
+        polished = [trial for trial in fit.trials if trial.name == "Gauss-Newton"]
+        assert len(polished) == 3 * steps and len({tuple(t.point.values()) for t in polished}) == 3 * steps
+        assert [trial.number for trial in fit.trials] == list(range(len(fit.trials)))
+        losses[steps] = fit.best.loss
+    assert losses[3] < 0.8 * losses[1]
+
+
+def test_where_nothing_fits_nothing_is_determined():
+    """A constant against numbers that double at every time, errors of 5 %: off by some 40 errors."""
+    parameters = (Real("a", 10, 1000, log=True),)
+    values = 20 * 2.0 ** np.arange(len(TIMES))
+    found = analysed(lambda p: p["a"] * np.ones(len(TIMES)), values, parameters, {"a": 113.0})
+    # soft_l1 weighs each deviation r by 1/sqrt(1 + r^2): the mean square is that of |r|, some 20
+    assert found.misfit > 10
+    said = " ".join(in_words(found))
+    assert said.startswith("Nothing fits: ") and "The data determine" not in said
+
+
+def test_a_choice_with_one_option_is_what_it_is():
+    parameters = (Choice("shape", ("grows",)), Real("a", 10, 1000, log=True))
+    study = study_of(exponential(TRUE), parameters, trials=8, local=Local({}, (1, 2, 3), None))
+    fit = carry_out(study, Growth(lambda point: exponential({**TRUE, **point})))
+    assert {trial.point["shape"] for trial in fit.trials} == {"grows"} and fit.best.point["a"] > 50
+
+
+def test_a_line_per_generation_without_a_terminal(capsys):
+    study = study_of(exponential(TRUE), PARAMETERS, trials=15)
+    fit = carry_out(study, Growth(exponential))
+    lines = capsys.readouterr().err.splitlines()
+    assert (
+        len(lines) == 3
+        and lines[0].startswith("1 of 15 trials, best loss ")
+        and lines[-1].startswith("15 of 15 trials")
+    )
+    assert f"best loss {fit.best.loss:.4g}, " in lines[-1] and lines[-1].endswith(" 0 s left")
 
 
 @pytest.mark.parametrize(

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from clusterdem.calibrate.parameters import Choice, Real, fill, moved, units
-from clusterdem.calibrate.study import read_calibration
-from clusterdem.calibrate.targets import Target, deviations, published_targets, read_off
 from clusterdem.errors import InputError
+from clusterdem.studies.calibrate.parameters import Choice, Real, fill, moved, units
+from clusterdem.studies.calibrate.study import read_calibration
+from clusterdem.studies.calibrate.targets import Target, deviations, published_targets, read_off
 
 ROOT = Path(__file__).parents[2]
 STUDIES = sorted((ROOT / "inputs/calibrate").glob("*.toml"))
@@ -92,7 +92,7 @@ def test_what_a_study_says(read):
         ("low = 0.4", "lowest = 0.4", ["parameter 'c': unknown key 'lowest'"]),
         ('name = "c"', 'name = "K_3"', ["parameter.name = 'K_3'", "twice"]),
         ('name = "c"', 'name = "a b"', ["parameter.name = 'a b'", "must be a word"]),
-        ('["gas", "rest"]', '["gas"]', ["parameter 'begin' choices = ['gas']", "two values or more"]),
+        ('["gas", "rest"]', "[]", ["parameter 'begin' choices = []", "one value or more"]),
         ('["gas", "rest"]', '["gas", "rest"]\nlow = 1', ["parameter 'begin' = ['low']", "either choices, or low"]),
         ("{c}", "{d}", ["variables.law = 'trancong {d} 1.1'", "{d} is no parameter"]),
         ("case1.in", "case9.in", ["case9.in'", "no such file"]),
@@ -115,7 +115,7 @@ def test_bad_files_are_refused_with_word_value_and_rule(read, old, new, said):
 @pytest.mark.parametrize(
     ("target", "said"),
     [
-        ('quantity = "weight"\ntime = 1\nvalue = 1', ["target.quantity = 'weight'", "must be among clusters"]),
+        ('quantity = "weight"\ntime = 1\nvalue = 1', ["target.quantity = 'weight'", "must be among count, clusters"]),
         ('quantity = "mean_diameter"\ntime = 1', ["needs one of value, below, above"]),
         ('quantity = "mean_diameter"\ntime = 0\nvalue = 1', ["target.time = 0", "above 0"]),
         ('quantity = "mean_diameter"\ntime = 1\nvalue = -1', ["target.value = -1", "above 0"]),

@@ -10,11 +10,12 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import polars as pl
 import pytest
-from clusterdem import read_file
+from clusterdem import ArgumentError, read_file
+from clusterdem.analysis.correlation import pair_correlation
 from clusterdem.frame import Box, Frame
-from clusterdem.universe import pair_correlation
+from clusterdem.io.universe import run_universe, to_universe
 from PIL import Image
-from synthetic import BOX, random_frame, write_run
+from synthetic import BOX, random_frame, write_dump, write_run
 
 
 def arrays(path):
@@ -35,7 +36,8 @@ def test_vtk(tmp_path, command):
     frame = random_frame(800, 10000, 0.01)
     points = arrays(tmp_path / "v/clusters.0000010000.vtp")
     np.testing.assert_array_equal(points["Points"], np.stack([frame[c] for c in "xyz"], axis=1))
-    np.testing.assert_array_equal(points["v"], np.stack([frame[f"v{c}"] for c in "xyz"], axis=1))
+    for name, parts in (("v", "v{}"), ("ug", "ug_{}"), ("fd", "fd_{}")):
+        np.testing.assert_array_equal(points[name], np.stack([frame[parts.format(c)] for c in "xyz"], axis=1))
     for name in ("diameter", "n", "l", "mass"):
         np.testing.assert_array_equal(points[name].ravel(), frame[name])
     image = arrays(tmp_path / "v/maps.0000010000.vti")
@@ -44,6 +46,53 @@ def test_vtk(tmp_path, command):
         series = ElementTree.parse(tmp_path / f"v/{name}.pvd")
         entries = [(float(e.get("timestep")), e.get("file")) for e in series.iter("DataSet")]
         assert [t for t, _ in entries] == [0.0, 0.01] and all((tmp_path / "v" / f).exists() for _, f in entries)
+
+
+def test_vtk_reads_time_and_vectors(tmp_path, command):
+    """VTK's own readers find the time, the vectors and the cells where they are."""
+    vtk = pytest.importorskip("vtkmodules.vtkIOXML")
+    to_numpy = pytest.importorskip("vtkmodules.util.numpy_support").vtk_to_numpy
+    dumps = write_run(tmp_path, 2)
+    frame = random_frame(800, 10000, 0.01)
+    for plane, cells in (("xz", (5, 1, 7)), ("zx", (7, 1, 5)), ("xy", (5, 7, 1))):
+        words = ("--out", tmp_path / plane, "--grid", "5", "7", "--plane", plane)
+        if plane == "xy":
+            words = ("--out", tmp_path / plane, "--grid", "5", "1", "--plane", plane)
+            cells = (5, 1, 1)
+        assert command("vtk", *dumps, *words)[0] == 0
+        image = vtk.vtkXMLImageDataReader()
+        image.SetFileName(str(tmp_path / plane / "maps.0000010000.vti"))
+        image.Update()
+        data = image.GetOutput()
+        assert data.GetDimensions() == tuple(count + 1 for count in cells)
+        assert data.GetFieldData().GetArray("TimeValue").GetNumberOfTuples() == 1
+        assert data.GetFieldData().GetArray("TimeValue").GetValue(0) == 0.01
+        assert data.GetSpacing() == pytest.approx([length / count for length, count in zip(BOX.lengths, cells)])
+        mass = to_numpy(data.GetCellData().GetArray("mass"))
+        velocity = to_numpy(data.GetCellData().GetArray("velocity"))
+        assert velocity.shape == (np.prod(cells), 3)
+        # the cell of the first cluster, by VTK's own numbering, holds what lies in it
+        place = np.array([frame.x[0], frame.y[0], frame.z[0]])
+        index = [int(p / length * count) for p, length, count in zip(place, BOX.lengths, cells)]
+        cell = data.ComputeCellId(index)
+        inside = np.ones(800, bool)
+        for axis, letter in enumerate("xyz"):
+            inside &= (frame[letter] / BOX.lengths[axis] * cells[axis]).astype(int) == index[axis]
+        assert mass[cell] == pytest.approx(frame.mass[inside].sum(), rel=1e-12)
+        for axis, letter in enumerate("xyz"):
+            mean = np.average(frame[f"v{letter}"][inside], weights=frame.mass[inside]) if letter in plane else 0.0
+            assert velocity[cell, axis] == pytest.approx(mean, rel=1e-12)
+    without = write_dump(tmp_path / "steps.dump", Frame(7, np.nan, BOX, frame.columns), time=False)
+    assert command("vtk", without, "--out", tmp_path / "steps")[0] == 0
+    assert "TimeValue" not in (tmp_path / "steps/maps.0000000007.vti").read_text()
+    assert 'timestep="7.0"' in (tmp_path / "steps/maps.pvd").read_text()
+    points = vtk.vtkXMLPolyDataReader()
+    points.SetFileName(str(tmp_path / "xz" / "clusters.0000010000.vtp"))
+    points.Update()
+    data = points.GetOutput()
+    assert data.GetNumberOfPoints() == 800 and data.GetFieldData().GetArray("TimeValue").GetValue(0) == 0.01
+    np.testing.assert_array_equal(to_numpy(data.GetPointData().GetArray("v"))[:, 2], frame["vz"])
+    assert data.GetPointData().GetArray("fd").GetNumberOfComponents() == 3
 
 
 @pytest.mark.parametrize("kind", ["csv", "parquet"])
@@ -114,8 +163,40 @@ def test_universe(tmp_path):
     assert len(large) == (frame.diameter > 1e-3).sum()
 
 
+def test_a_universe_of_all_frames(tmp_path):
+    """Clusters in another order in the second frame: by their ids each is where it is."""
+    low = Box((-0.1, 0.0, 0.2), (0.2, 0.003, 0.8), BOX.periodic)
+    frames = [random_frame(30, step, 1e-3 * step, box=low) for step in (0, 5)]
+    types = np.arange(30) % 3 + 1.0
+    for frame in frames:
+        frame.columns["type"] = types
+    turned = Frame(5, 5e-3, low, {name: values[::-1] for name, values in frames[1].columns.items()})
+    for shift, origin in ((True, np.array(low.lo)), (False, np.zeros(3))):
+        universe = run_universe([frames[0], turned], shift)
+        assert len(universe.trajectory) == 2 and universe.atoms.types.tolist() == [f"{t:.0f}" for t in types]
+        for ts, frame in zip(universe.trajectory, frames):
+            places = np.stack([frame.x, frame.y, frame.z], axis=1)
+            np.testing.assert_allclose(ts.positions, 1e6 * (places - origin), atol=0.05)
+            np.testing.assert_allclose(ts.velocities[:, 2], 1e6 * frame["vz"], rtol=1e-6)
+            assert (ts.data["step"], ts.data["time"]) == (frame.step, frame.time)
+            np.testing.assert_allclose(ts.data["origin"], 1e6 * origin)
+    with pytest.raises(ArgumentError, match="clusters change between step 0 and step 9: take a Universe of each frame"):
+        run_universe([frames[0], random_frame(31, 9, box=low)])
+    with pytest.raises(ArgumentError, match="frames: there are none"):
+        run_universe([])
+    assert to_universe(random_frame(0)).atoms.n_atoms == 0
+
+
+def test_tables_in_memory():
+    frame = random_frame(10)
+    frame = Frame(3, 0.5, BOX, frame.columns, texts={"element": np.array(["Si"] * 10)})
+    for table in (frame.to_polars(), frame.to_pandas()):
+        assert list(table.columns[:2]) == ["step", "time"] and list(table["element"]) == ["Si"] * 10
+        assert list(table["n"]) == frame["n"].astype(int).tolist() and list(table["vz"]) == frame["vz"].tolist()
+
+
 def test_pair_correlation_of_chance_is_one_also_across_the_border():
-    r, g = pair_correlation(random_frame(20_000))
+    r, g = pair_correlation(random_frame(20_000), 4e-3)
     assert g[5:].mean() == pytest.approx(1, abs=0.02) and r[-1] < 4e-3
 
 
@@ -125,7 +206,7 @@ def test_pair_correlation_of_pairs():
     x, z = 0.3 * rng.random(1000), 0.6 * rng.random(1000)
     columns = {"x": np.concatenate([x, (x + 0.00205) % 0.3]), "z": np.concatenate([z, z])}
     columns.update(mass=np.ones(2000), diameter=np.full(2000, 1e-4), y=np.full(2000, 0.0015))
-    r, g = pair_correlation(Frame(0, 0.0, BOX, columns))
+    r, g = pair_correlation(Frame(0, 0.0, BOX, columns), 4e-3)
     peak = int(np.argmax(g))
     assert r[peak] == pytest.approx(0.00205, abs=6e-5)
     neighbours = g[peak] * 2000 / 0.18 * 2 * np.pi * r[peak] * 1e-4
@@ -137,8 +218,8 @@ def test_pair_correlation_in_space_and_with_walls():
     rng = np.random.default_rng(0)
     columns = {axis: 0.1 * rng.random(20_000) for axis in "xyz"}
     columns.update(mass=np.ones(20_000), diameter=np.full(20_000, 1e-4))
-    _, g = pair_correlation(Frame(0, 0.0, cube, columns))
+    _, g = pair_correlation(Frame(0, 0.0, cube, columns), 4e-3)
     assert g[10:].mean() == pytest.approx(1, abs=0.02)
     walls = Box(cube.lo, cube.hi, (False, False, False))
-    _, g = pair_correlation(Frame(0, 0.0, walls, columns))
+    _, g = pair_correlation(Frame(0, 0.0, walls, columns), 4e-3)
     assert 0.9 < g[10:].mean() < 1

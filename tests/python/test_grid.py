@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from clusterdem import Box, Grid, InputError, deposit, maps_of
-from clusterdem.grid import check_resolution
-from clusterdem.overlap import cap, edge_volume
+from clusterdem import ArgumentError, Box, Grid, InputError, deposit, maps_of
+from clusterdem.analysis.grid import check_resolution
+from clusterdem.analysis.overlap import cap, edge_volume
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from synthetic import BOX, random_frame
@@ -74,7 +74,7 @@ def test_one_cluster_gives_its_own_values():
     cell = np.unravel_index(np.argmax(maps["mass"]), grid.shape)
     assert maps["velocity_z"][cell] == pytest.approx(frame["vz"][0])
     assert maps["mean_diameter"][cell] == pytest.approx(frame.diameter[0])
-    assert maps["fraction"][cell] == pytest.approx(frame.mass[0] / 2000 / grid.cell_volume)
+    assert maps["fraction"][cell] == pytest.approx(frame["n"][0] * np.pi / 6 * 1e-12 / grid.cell_volume)
     assert np.isnan(maps["temperature"]).all() and np.isnan(maps["mean_diameter"]).sum() == 8
 
 
@@ -84,18 +84,18 @@ def test_temperature_of_a_maxwellian():
     assert maps["temperature"] == pytest.approx((0.3**2 + 0.4**2) / 2, rel=0.02)
 
 
-def test_paper_scale_of_the_papers_start():
-    """2.0e6 particles are 0.194 % true, 1.94 % on the paper's scale."""
+def test_fraction_of_the_papers_start():
+    """2.0e6 particles of 100 µm in 0.3 x 0.003 x 0.6 m are 0.194 %."""
     frame = random_frame(5000)
-    columns = dict(frame.columns, mass=np.full(5000, 400 * np.pi / 6 * 1e-12 * 2000))
+    n = np.full(5000, 400.0)
+    columns = dict(frame.columns, n=n, mass=n * np.pi / 6 * 1e-12 * 2000, diameter=1e-4 * np.cbrt(2 * n))
     maps = maps_of(type(frame)(0, 0.0, BOX, columns), Grid(BOX, 30, 30))
     assert maps["fraction"].mean() == pytest.approx(0.00194, rel=2e-3)
-    assert maps["fraction_paper"].mean() == pytest.approx(0.0194, rel=2e-3)
 
 
 def test_grids_that_make_no_sense_are_refused():
     for shape in ((0, 3), (3, -1), (10**5, 10**5)):
-        with pytest.raises(InputError, match="--grid"):
+        with pytest.raises(ArgumentError, match="^shape: "):
             Grid(BOX, *shape)
     with pytest.raises(InputError, match="narrower than the smallest cluster"):
         check_resolution(random_frame(), Grid(BOX, 3000, 10))

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from clusterdem import InputError, read_dumps
-from clusterdem.grid import Grid, maps_of
-from clusterdem.gridded import COLUMNS, is_gridded, read_gridded
+from clusterdem.analysis.grid import Grid, maps_of
+from clusterdem.analysis.gridded import COLUMNS, is_gridded, read_gridded
 
 ROOT = Path(__file__).resolve().parents[2]
 LMP = Path(os.environ.get("CLUSTERDEM_LMP", ROOT / "build" / "bin" / "lmp"))

@@ -58,12 +58,20 @@ def test_bad_input_on_either_rank_ends_both(tmp_path):
     assert (tmp_path / "out/sizes.csv").read_text().count("\n") == 3
 
 
-def test_interrupting_leaves_whole_files_only(tmp_path):
+@pytest.mark.parametrize("before", [signal.default_int_handler, signal.SIG_IGN], ids=["in front", "as under nohup … &"])
+def test_interrupting_leaves_whole_files_only(tmp_path, before):
+    """Shells start background jobs with Ctrl-C's signal ignored; it ends them all the same."""
     text = "".join(dump_text(random_frame(3000, step)) for step in range(40))
     (tmp_path / "all.dump").write_text(text)
     out = tmp_path / "out"
     command = [sys.executable, "-m", "clusterdem", "map", str(tmp_path / "all.dump"), "--out", str(out)]
-    child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    child = subprocess.Popen(
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, before),
+    )
     deadline = time.monotonic() + 60
     while len(list(out.glob("*.npz"))) < 3 and time.monotonic() < deadline:
         time.sleep(0.005)

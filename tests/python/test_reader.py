@@ -55,8 +55,8 @@ def test_compressed(tmp_path):
 
 @pytest.mark.parametrize("suffix", ["", ".gz", ".zst"])
 def test_many_frames_in_one_file(tmp_path, suffix, monkeypatch):
-    monkeypatch.setattr("clusterdem.streams.CHUNK", 1000)
-    monkeypatch.setattr("clusterdem.streams.AT_ONCE", 0)
+    monkeypatch.setattr("clusterdem.io.streams.CHUNK", 1000)
+    monkeypatch.setattr("clusterdem.io.streams.AT_ONCE", 0)
     frames = [random_frame(20 + 30 * i, 10 * i, 0.1 * i) for i in range(4)]
     text = "".join(dump_text(frame, units=i == 0) for i, frame in enumerate(frames)).encode()
     pack = {"": bytes, ".gz": gzip.compress, ".zst": zstandard.compress}[suffix]
@@ -79,7 +79,7 @@ def test_liggghts_header_and_radius(tmp_path):
     (tmp_path / "a").write_text(text)
     read = only(tmp_path / "a")
     np.testing.assert_array_equal(read.diameter, frame.diameter)
-    assert np.isnan(read.time) and read.label == "step 7" and read.box.periodic == (True, True, True)
+    assert np.isnan(read.time) and read.label == "step 7" and read.box.periodic == (False, False, False)
     assert only(tmp_path / "a", dt=0.5).time == 3.5
 
 

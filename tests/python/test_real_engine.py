@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from clusterdem import Grid, maps_of, read_dumps
-from clusterdem.enginelog import read_log
-from clusterdem.series import read_series
+from clusterdem.io.enginelog import read_log
+from clusterdem.io.series import read_series
 
 BUILT = Path(__file__).parents[2] / "build/bin/lmp"
 ENGINE = os.environ.get("CLUSTERDEM_LMP") or (str(BUILT) if BUILT.exists() else shutil.which("lmp"))

@@ -9,8 +9,9 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from clusterdem.needs import needs_of, statements
-from synthetic import write_run
+from clusterdem import Run, write_report
+from clusterdem.analysis.needs import needs_of, statements
+from synthetic import random_frame, write_dump, write_run
 
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 FLAGS = (
@@ -83,6 +84,21 @@ def test_one_file_with_everything_inside(page):
     ):
         assert words in text, words
     assert text.count("<img") >= 11
+
+
+def test_what_was_fed_and_left_is_part_of_the_ledger(tmp_path):
+    """Two frames, the second with other clusters: the table says how many particles came and went."""
+    for step, count in ((0, 100), (50, 130)):
+        write_dump(tmp_path / f"own.{step}.dump", random_frame(count, step, 1e-3 * step))
+    first, second = (int(random_frame(count, step)["n"].sum()) for step, count in ((0, 100), (50, 130)))
+    table = f"# own\n# step time clusters particles fed left\n0 0 100 {first} 0 0\n50 0.05 130 {second} "
+    for left, said in ((7, "(conserved exactly)"), (8, "(NOT conserved: off by up to 1)")):
+        (tmp_path / "own.N.txt").write_text(f"{table}{second - first + 7} {left}\n")
+        path, error = write_report(Run(tmp_path))
+        page = path.read_text()
+        text = f"{first:,} at first, {second - first + 7:,} fed, {left} left, {second:,} at last {said}."
+        assert error is None and page.count(text) == 2  # of the dumps, and of the engine's own count
+        assert "Mass: goes with the particles" in page and "paper" not in page
 
 
 def test_needs_of_older_tables_and_quiet_runs():

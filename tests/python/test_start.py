@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from clusterdem.errors import InputError
-from clusterdem.start import diameter, place, write_start
+from clusterdem import ArgumentError
+from clusterdem.io.start import diameter, place, write_start
 
 
 def nearest(centres, lengths):
@@ -35,8 +35,8 @@ def test_file_and_command(tmp_path, command):
 
 
 def test_bad_input(tmp_path, command):
-    with pytest.raises(InputError, match="no room for cluster"):
+    with pytest.raises(ArgumentError, match="no room for cluster"):
         place(100, 0.01, (0.05, 0.05), seed=1)
-    with pytest.raises(InputError, match="at least two diameters"):
+    with pytest.raises(ArgumentError, match="at least two diameters"):
         write_start(tmp_path / "s", 1, 400, (0.001, 0.003, 0.05), seed=1)
     assert command("start", "--clusters", "0")[0] == 2

@@ -6,14 +6,17 @@ import math
 
 import numpy as np
 import pytest
+from clusterdem.analysis.grid import grid_of_cells
 from clusterdem.errors import InputError
 from clusterdem.frame import Box, Frame
-from clusterdem.trade.errors import distance, error_between, errors_of, spread_between
-from clusterdem.trade.frames import read_frames, write_frames
-from clusterdem.trade.observables import OBSERVABLES, Observed, grid_of, observe
+from clusterdem.observables import How
+from clusterdem.studies.trade.errors import distance, error_between, errors_of, spread_between
+from clusterdem.studies.trade.frames import read_frames, write_frames
+from clusterdem.studies.trade.observe import DEFAULT, Observed, observe
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from synthetic import BOX as BOX_OF_CASES
 from synthetic import random_frame
 
 BOX = Box((0.0, 0.0, 0.0), (0.02, 0.003, 0.02))
@@ -29,7 +32,7 @@ START = frame([0.001], [0.001], [1e-3], step=0)
 
 
 def observed(*frames, cell=(0.01, 0.01)):
-    return observe([START, *frames], tuple(OBSERVABLES), cell)
+    return observe([START, *frames], DEFAULT, How(cell, (3e-4, 6e-4, 9e-4)))
 
 
 def test_two_clusters_by_hand():
@@ -45,7 +48,7 @@ def test_two_clusters_by_hand():
     assert found["map"][0] == pytest.approx(np.array([1, 0, 0, 8]) * unit / 2000 / volume)
     assert found["lateral_fraction"][0] == pytest.approx(np.array([1, 8]) * unit / 2000 / (2 * volume))
     # 9 and 1 mm from the centre line, strips of 1.67 mm: 0.1 mm in the sixth, 0.2 mm in the first
-    assert found["lateral_diameter"][0] == pytest.approx([2e-4, 0, 0, 0, 0, 1e-4])
+    assert found["strip_diameter"][0] == pytest.approx([2e-4, np.nan, np.nan, np.nan, np.nan, 1e-4], nan_ok=True)
     # variance of the masses (1, 0, 0, 8) over that of 2 clusters on 4 cells by chance
     masses = np.array([1, 0, 0, 8.0])
     assert found["dispersion"][0] == pytest.approx([masses.var() / ((1 + 64) * (1 - 1 / 4) / 4)])
@@ -55,13 +58,22 @@ def test_the_start_is_left_out_and_one_is_not_enough():
     found = observed(frame([0.01], [0.01], [1e-3], step=5), frame([0.01], [0.01], [1e-3], step=9))
     assert found.times == pytest.approx([5e-3, 9e-3]) and found.values["map"].shape == (2, 4)
     with pytest.raises(InputError, match="no frame after the start"):
-        observe([START], ("clusters",))
+        observe([START], ("clusters",), How())
+
+
+def test_cells_and_classes_that_are_open_follow_from_the_reference():
+    """Diameters 1 to 5 mm in a box of 20 mm: 30 x 30 cells, borders at 2, 3 and 4 mm; what is said stays."""
+    frames = [frame([0.01, 0.01], [0.01, 0.01], [1e-3, 3e-3]), frame([0.01], [0.01], [5e-3])]
+    how = How().settled(frames)
+    assert how.cell == pytest.approx((0.02 / 30, 0.02 / 30)) and how.borders == pytest.approx((2e-3, 3e-3, 4e-3))
+    assert how.grid(frames[0]).shape == (30, 30) and How((1, 1), (1e-4,)).settled(frames) == How((1, 1), (1e-4,))
+    assert How().settled([]) == How()
 
 
 def test_cells_keep_their_size_in_another_box():
-    assert grid_of(random_frame(), (0.01, 0.02)).shape == (30, 30)
+    assert grid_of_cells(BOX_OF_CASES, (0.01, 0.02)).shape == (30, 30)
     half = Box((0, 0, 0), (0.3, 0.003, 0.3))
-    assert grid_of(random_frame(box=half), (0.01, 0.02)).shape == (30, 15)
+    assert grid_of_cells(half, (0.01, 0.02)).shape == (30, 15)
 
 
 def test_frames_come_back_as_they_were(tmp_path):
@@ -84,11 +96,11 @@ def test_one_number_is_the_relative_difference():
     spread = spread_between(reference)
     assert spread == pytest.approx(0.1)
     error = error_between(reference + 0.5, reference, spread)
-    assert error.value == pytest.approx(0.05) and error.inside and error.counted == 0.0
+    assert error.value == pytest.approx(0.05) and error.inside
     # the shift is the same for every seed: only the mean that it is divided by varies, by half a percent
     assert error.uncertainty < 0.005
     error = error_between(reference * 1.2, reference, spread)
-    assert error.value == pytest.approx(0.2) and not error.inside and error.counted == error.value
+    assert error.value == pytest.approx(0.2) and not error.inside
     assert error.uncertainty == pytest.approx(0, abs=1e-15)
 
 
@@ -142,6 +154,18 @@ def test_runs_that_cannot_be_compared():
     assert error([1.0], 4, 1.1) is None  # another number of frames
     assert error([1.0, 2.0], 2, 1.1) is None  # another box
     assert errors_of({}, reference, ("map",))["map"] is None
+
+
+def test_seeds_of_a_reference_that_have_other_times_are_not_compared():
+    reference = {1: run([1.0, 2.0], 4, 1.0), 2: run([1.0, 2.0], 4, 1.2), 3: run([1.0, 1.7], 4, 1.1)}
+    assert errors_of({1: run([1.0, 2.0], 4, 1.0)}, reference, ("map",))["map"] is None
+
+
+def test_what_is_nowhere_is_no_difference():
+    """A strip without clusters in both is none; in one of them alone it cannot be bridged."""
+    nan = math.nan
+    assert distance(np.array([1.0, nan]), np.array([2.0, nan]), np.array([2.0, nan])) == 0.5
+    assert distance(np.array([1.0, nan]), np.array([2.0, 1.0]), np.array([2.0, 1.0])) == math.inf
 
 
 def test_only_seeds_in_common_are_compared_but_the_spread_is_of_all():

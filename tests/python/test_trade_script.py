@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from clusterdem.enginelog import read_log
-from clusterdem.errors import InputError
+from clusterdem import ArgumentError, InputError
+from clusterdem.io.enginelog import read_log
 from clusterdem.studies.engine import Engine, find_engine
 from clusterdem.studies.runs import plan
 from clusterdem.studies.script import read_script
-from clusterdem.trade.frames import KEEPING
-from clusterdem.trade.settings import settings_of
-from clusterdem.trade.study import read_study
+from clusterdem.studies.trade.frames import keeping_of
+from clusterdem.studies.trade.settings import settings_of
+from clusterdem.studies.trade.study import read_study
 
 INPUTS = Path(__file__).parents[2] / "inputs"
 ENGINE = Engine("/opt/lmp", "LAMMPS (4 Feb 2025)", "plugin as it is", ())
@@ -29,7 +30,7 @@ def study(tmp_path):
 
 
 def keys(study, engine=ENGINE):
-    return [run.key for run in plan(study, settings_of(study), engine, Path("runs"), KEEPING)]
+    return [run.key for run in plan(study, settings_of(study), engine, Path("runs"), keeping_of(("clusters",)))]
 
 
 def edit(path):
@@ -62,6 +63,43 @@ def test_continued_lines_comments_and_quotes(tmp_path):
     (tmp_path / "in.run").write_text(text + "read_data ${inputs}/data.txt\n")
     script = read_script(tmp_path / "in.run", {"inputs": str(tmp_path)})
     assert [file.name for file in script.files] == ["in.run", "more.in", "data.txt"]
+
+
+def test_a_pattern_names_every_file_that_matches(tmp_path):
+    for number in (0, 1, 10):
+        (tmp_path / f"gas.{number}.vtk").write_text("")
+    (tmp_path / "in.run").write_text('fix drag all drag/cluster 1 1 field "${inputs}/gas.*.vtk loop 0.1"\n')
+    script = read_script(tmp_path / "in.run", {"inputs": str(tmp_path)})
+    assert [file.name for file in script.files] == ["in.run", "gas.0.vtk", "gas.1.vtk", "gas.10.vtk"]
+
+
+def test_a_changed_file_of_a_pattern_changes_the_key(study):
+    common = study.input.parent / "common.in"
+    common.write_text(common.read_text() + "variable g index ${inputs}/gas.*.vtk\n")
+    gas = study.input.parent / "gas.1.vtk"
+    gas.write_text("3")
+    before = keys(study)
+    gas.write_text("9")
+    changed = keys(study)
+    assert not set(before) & set(changed)
+    (study.input.parent / "gas.2.vtk").write_text("")  # one more frame of the series
+    assert not set(changed) & set(keys(study))
+
+
+def test_what_a_wrapper_starts_belongs_to_the_engine(tmp_path):
+    """A script that starts a copy of an executable: another copy is another engine, though the script is the same."""
+    real = Path(os.environ.get("CLUSTERDEM_LMP") or Path(__file__).parents[2] / "build/bin/lmp")
+    if not real.exists():
+        pytest.skip("no engine: build/bin/lmp is missing")
+    behind = find_engine(str(real)).files[1]
+    copy = shutil.copy(behind, tmp_path / "copy")
+    (tmp_path / "lmp").write_text(f'#!/bin/sh\nexec "${{OTHER:-{copy}}}" "$@"\n')
+    (tmp_path / "lmp").chmod(0o755)
+    engine = find_engine(str(tmp_path / "lmp"))
+    assert Path(copy) in engine.files and not engine.changed
+    with open(copy, "ab") as file:
+        file.write(b"built anew")
+    assert engine.changed and find_engine(str(tmp_path / "lmp")).identity != engine.identity
 
 
 def test_an_include_that_is_not_found_names_its_line(tmp_path):
@@ -101,7 +139,7 @@ def test_a_key_does_not_depend_on_the_place(study, tmp_path):
 
 
 def test_the_command(study):
-    run = plan(replace(study, ranks=2), settings_of(study), ENGINE, Path("runs"), KEEPING)[4]
+    run = plan(replace(study, ranks=2), settings_of(study), ENGINE, Path("runs"), keeping_of(("clusters",)))[4]
     text = " ".join(run.command)
     assert text.startswith("mpirun -np 2 /opt/lmp -in ")
     assert "-var contact md" in text and "-var seed 2" in text and "-var outdir ." in text
@@ -119,7 +157,7 @@ def test_a_script_without_seed(study):
 
 
 def test_an_engine_that_is_none(tmp_path):
-    with pytest.raises(InputError, match="--lmp: .*gone is no executable"):
+    with pytest.raises(ArgumentError, match="executable: .*gone is no executable"):
         find_engine(str(tmp_path / "gone"))
     (tmp_path / "lmp").write_text("#!/bin/sh\necho something else\n")
     (tmp_path / "lmp").chmod(0o755)

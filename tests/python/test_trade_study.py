@@ -6,9 +6,9 @@ import itertools
 
 import pytest
 from clusterdem.errors import InputError
-from clusterdem.trade.observables import OBSERVABLES
-from clusterdem.trade.settings import settings_of, together
-from clusterdem.trade.study import read_study
+from clusterdem.studies.trade.observe import DEFAULT
+from clusterdem.studies.trade.settings import settings_of, together
+from clusterdem.studies.trade.study import read_study
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -38,7 +38,7 @@ def study(tmp_path):
 
 def test_defaults_and_numbers_as_written(study):
     found = study(GOOD)
-    assert found.seeds == (1, 2, 3, 4, 5) and found.ranks == 1 and found.observables == tuple(OBSERVABLES)
+    assert found.seeds == (1, 2, 3, 4, 5) and found.ranks == 1 and found.observables == DEFAULT
     assert found.variables == {"tend": "2e-4"}
     assert [option.variables for option in found.axes[0].options] == [{"dt": "1e-6"}, {"dt": "2e-6"}]
     assert found.axes[2].options[1].variables == {"contact": "linear", "atoms": "cluster"}
@@ -129,8 +129,13 @@ def test_refusals_name_file_key_value_and_rule(study, change, words):
         ("ranks = 0", ["ranks = 0", "1 or more"]),
         ("ranks = true", ["ranks = True", "whole number"]),
         ('combine = "all"', ["combine = 'all'", "'product'"]),
-        ('observables = ["colour"]', ["observables = 'colour'", "clusters, mean_diameter"]),
+        ('observables = ["colour"]', ["observables = 'colour'", "clusters, mass, mean_diameter"]),
         ("observables = []", ["observables = []", "list of names"]),
+        ("observables = [[1]]", ["observables = [1]", "must be among"]),
+        ("classes = [3, 2]", ["classes = [3, 2]", "ascending"]),
+        ('classes = ["a"]', ["classes = ['a']", "borders of size classes (µm)"]),
+        ('plane = "xx"', ["plane = 'xx'", "two of x, y, z"]),
+        ('observables_file = "gone.py"', ["observables_file = 'gone.py'", "no such file"]),
         ("cell = [0.01, 0]", ["cell = [0.01, 0]", "two positive numbers (m)"]),
         ("cell = [0.01, inf]", ["cell = [0.01, inf]", "two positive numbers"]),
         ("cell = 0.01", ["cell = 0.01", "width and height"]),

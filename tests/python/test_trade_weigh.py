@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
-from clusterdem.studies.runs import Cost, Failure, Run, Setting
-from clusterdem.trade.errors import Error
-from clusterdem.trade.weigh import Weighed, cheapest, front
+from clusterdem import InputError
+from clusterdem.studies.runs import Cost, Failure, Setting, StudyRun
+from clusterdem.studies.trade.answer import in_words
+from clusterdem.studies.trade.errors import Error
+from clusterdem.studies.trade.observe import Observed
+from clusterdem.studies.trade.weigh import Weighed, _check_times, cheapest, front, untold
 
 
 def weighed(axis, seconds, error, failures=()):
@@ -25,9 +31,25 @@ def test_cheapest_within_the_tolerance():
     assert cheapest([REFERENCE, coarse, fine], 0.01) is REFERENCE
 
 
-def test_an_error_inside_the_spread_is_none():
-    inside = weighed("dt", [2.0, 2.1, 2.2], 0.02)
-    assert cheapest([REFERENCE, inside], 1e-6) is inside
+def open_at(value, uncertainty, spread=0.5):
+    w = weighed("dt", [2.0, 2.1, 2.2], value)
+    return replace(w, errors={"map": Error(value, uncertainty, spread)})
+
+
+def test_an_error_and_twice_its_standard_error_must_keep_the_tolerance():
+    """Whatever single seeds differ by: 0.03 ± 0.01 is within 0.05, 0.03 ± 0.02 may be or not, 0.1 ± 0.02 is not."""
+    within, may_be, beyond = open_at(0.03, 0.01), open_at(0.03, 0.02), open_at(0.1, 0.02)
+    assert [w.within(0.05) for w in (within, may_be, beyond)] == [True, None, False]
+    assert cheapest([REFERENCE, within], 0.05) is within
+    assert cheapest([REFERENCE, may_be], 0.05) is REFERENCE and untold([REFERENCE, may_be], REFERENCE, 0.05) == [may_be]
+    assert cheapest([REFERENCE, beyond], 0.05) is REFERENCE and not untold([REFERENCE, beyond], REFERENCE, 0.05)
+    words = in_words([REFERENCE, may_be, beyond], REFERENCE, 0.05)
+    assert words.startswith("Cannot be told within 5 %, more seeds are needed: dt (map 3 ± 2 %, 2.1 core-seconds). ")
+    assert words.endswith("Cheapest within 5 %: the reference itself, 11 core-seconds.")
+
+
+def test_one_seed_alone_tells_nothing_within_the_tolerance():
+    assert open_at(0.01, float("nan")).within(0.05) is None
 
 
 @pytest.mark.parametrize("seconds", [[9.9, 10.9, 11.9], [10.1, 5.0, 5.0]], ids=["less than 2 %", "not with every seed"])
@@ -43,12 +65,21 @@ def test_of_equals_the_one_with_fewest_changes():
 
 
 def test_what_failed_or_cannot_be_compared_is_no_answer():
-    run = Run(REFERENCE.setting, 1, "key", Path("runs/key"), ("lmp",), None, None)
+    run = StudyRun(REFERENCE.setting, 1, "key", Path("runs/key"), ("lmp",), None, None)
     failed, other_box = (
         weighed("dt", [1.0, 1.0], 0.0, (Failure(run, "lost"),)),
         weighed("height", [1.0, 1.0, 1.0], None),
     )
     assert cheapest([REFERENCE, failed, other_box], 0.05) is REFERENCE
+
+
+def test_a_reference_whose_seeds_have_frames_at_other_times_is_refused():
+    """Dumps by step of a variable step: the same steps are other times."""
+    study = SimpleNamespace(path=Path("s.toml"))
+    one, same, other = (Observed(np.array(times), {}) for times in ([0.01, 0.02], [0.01001, 0.02], [0.01, 0.03]))
+    _check_times(study, {1: one, 2: same})
+    with pytest.raises(InputError, match="s.toml: the reference's seeds 1 and 3 have frames at different times"):
+        _check_times(study, {1: one, 2: same, 3: other})
 
 
 def test_front():

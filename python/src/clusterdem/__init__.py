@@ -1,29 +1,10 @@
-"""Read cluster DEM dumps, map solids, measure sizes and non-uniformity, draw and report."""
+"""Read cluster DEM dumps, map solids, measure sizes and uniformity, draw and report.
 
-from .errors import InputError
-from .frame import Box, Frame
-from .grid import Deposit, Grid, deposit, maps_of, solids_fraction
-from .nonuniformity import Uniformity, measure, strips
-from .reader import read_dumps, read_file
-from .sizes import Sizes, class_shares, size_summary
+Names are imported when they are first used; ``__init__.pyi`` says from where.
+"""
 
-__version__ = "0.1.0"  # of the whole project: CMake reads it here
+import lazy_loader
 
-__all__ = [
-    "Box",
-    "Deposit",
-    "Frame",
-    "Grid",
-    "InputError",
-    "Sizes",
-    "Uniformity",
-    "class_shares",
-    "deposit",
-    "maps_of",
-    "measure",
-    "read_dumps",
-    "read_file",
-    "size_summary",
-    "solids_fraction",
-    "strips",
-]
+__version__ = "0.2.0"  # of the whole project: CMake reads it here
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

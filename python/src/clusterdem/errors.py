@@ -1,17 +1,17 @@
-"""The one error that bad input raises: which file, which line, which rule."""
+"""The errors of the package, both kinds of ValueError: a file that breaks a rule, an argument that does."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 
-class InputError(Exception):
-    """Input that breaks a rule.
+class InputError(ValueError):
+    """A file that breaks a rule.
 
     Parameters
     ----------
     path : str or Path
-        The file (or option) at fault.
+        The file at fault.
     rule : str
         The rule that it breaks, in one line.
     line : int, optional
@@ -27,3 +27,23 @@ class InputError(Exception):
     def __str__(self) -> str:
         where = self.path if self.line is None else f"{self.path}:{self.line}"
         return f"{where}: {self.rule}".replace("\n", " ")
+
+
+class ArgumentError(ValueError):
+    """An argument that breaks a rule.
+
+    Parameters
+    ----------
+    argument : str
+        Its name.
+    rule : str
+        The rule that it breaks, in one line.
+    """
+
+    def __init__(self, argument: str, rule: str) -> None:
+        super().__init__(argument, rule)
+        self.argument = argument
+        self.rule = rule
+
+    def __str__(self) -> str:
+        return f"{self.argument}: {self.rule}".replace("\n", " ")

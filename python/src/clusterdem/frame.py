@@ -4,16 +4,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .primary import ASSUMED, Primary, check_heavier, primary_of_columns
+
 if TYPE_CHECKING:
     import MDAnalysis
+    import pandas
+    import polars
 
 Floats = NDArray[np.float64]
+Words = NDArray[np.str_]
+
+WHOLE = ("id", "type", "n", "mol")
+"""Columns of whole numbers."""
 
 
 @dataclass(frozen=True)
@@ -26,6 +34,11 @@ class Box:
         Lower and upper bounds along x, y, z (m).
     periodic : tuple of bool
         Whether the box repeats along x, y, z.
+
+    Examples
+    --------
+    >>> Box((0.0, 0.0, -0.1), (0.3, 0.003, 0.5)).lengths
+    (0.3, 0.003, 0.6)
     """
 
     lo: tuple[float, float, float]
@@ -49,23 +62,36 @@ class Box:
 
 @dataclass(frozen=True)
 class Frame:
-    """The clusters at one instant.
+    """The clusters at one instant; there may be none.
 
     Parameters
     ----------
     step : int
         Timestep number.
     time : float
-        Physical time (s); NaN if the dump does not tell.
+        Physical time (s); NaN if nothing tells.
     box : Box
         The box (m).
     columns : mapping of str to ndarray, shape (N,), float64
-        Every per-cluster column by its name in SI units; ``x``, ``y``, ``z`` lie in the box,
-        ``mass`` (kg) and ``diameter`` (m) are always there.
+        Every numeric column by its name in SI units; ``x`` and ``z`` (m), ``mass`` (kg) and ``diameter`` (m) are always
+        there. Along a periodic side positions lie in the box, along another they stay as they are.
     path : str
         The file it was read from.
     line : int
         The line where the frame begins; ``first_row`` is the line of its first cluster.
+    texts : mapping of str to ndarray, shape (N,), str
+        Columns of words, such as ``element``.
+    primary : Primary, optional
+        The primary particles, where they are given or the run's log tells them.
+
+    Examples
+    --------
+    >>> columns = {"x": [0.1], "z": [0.2], "mass": [1e-6], "diameter": [9.28e-4]}
+    >>> frame = Frame(10, 0.5, Box((0, 0, 0), (0.3, 0.003, 0.6)), {k: np.array(v) for k, v in columns.items()})
+    >>> len(frame), frame.label, float(frame["x"][0])
+    (1, 't = 0.5 s', 0.1)
+    >>> f"{frame.with_density(2500.0).solids[0]:.1e} m³"
+    '4.0e-10 m³'
     """
 
     step: int
@@ -75,11 +101,15 @@ class Frame:
     path: str = ""
     line: int = 1
     first_row: int = field(default=1, compare=False)
+    texts: Mapping[str, Words] = field(default_factory=dict)
+    primary: Primary | None = None
 
     def __len__(self) -> int:
         return len(self.columns["mass"])
 
     def __getitem__(self, name: str) -> Floats:
+        if name not in self.columns:
+            raise KeyError(f"no column {name!r} was read; there are {', '.join(self.columns)}")
         return self.columns[name]
 
     def __contains__(self, name: object) -> bool:
@@ -88,30 +118,88 @@ class Frame:
     @property
     def x(self) -> Floats:
         """Centre's x (m), shape (N,)."""
-        return self.columns["x"]
+        return self["x"]
+
+    @property
+    def y(self) -> Floats:
+        """Centre's y (m), shape (N,)."""
+        return self["y"]
 
     @property
     def z(self) -> Floats:
         """Centre's z (m), shape (N,)."""
-        return self.columns["z"]
+        return self["z"]
 
     @property
     def mass(self) -> Floats:
         """Mass (kg), shape (N,)."""
-        return self.columns["mass"]
+        return self["mass"]
 
     @property
     def diameter(self) -> Floats:
         """Equivalent diameter (m), shape (N,)."""
-        return self.columns["diameter"]
+        return self["diameter"]
 
     @property
     def label(self) -> str:
         """``t = … s`` where the time is known, ``step …`` where not."""
         return f"step {self.step}" if math.isnan(self.time) else f"t = {self.time:.4g} s"
 
-    def to_universe(self) -> MDAnalysis.Universe:
-        """The frame as an MDAnalysis Universe; see :func:`clusterdem.universe.to_universe`."""
-        from .universe import to_universe
+    @property
+    def head(self) -> Frame:
+        """The frame without its clusters: step, time, box and where it stands."""
+        nothing = {name: np.empty(0) for name in ("mass", "diameter")}
+        return replace(self, columns=nothing, texts={})
 
-        return to_universe(self)
+    def with_density(self, density: float) -> Frame:
+        """The same frame with primary particles of a given density (kg/m³)."""
+        return replace(self, primary=Primary.of_density(density))
+
+    @property
+    def particles(self) -> Primary:
+        """The primary particles: those of the run, else those that the columns tell, else the assumed ones."""
+        if self.primary is not None:
+            return self.primary
+        found = primary_of_columns(self.mass, self.diameter, self.columns.get("n"))
+        return found or Primary.of_density(ASSUMED, "assumed")
+
+    @property
+    def solids(self) -> Floats:
+        """Volume of the solids in each cluster (m³), shape (N,).
+
+        Raises
+        ------
+        ArgumentError
+            If a cluster would hold more solids than its own volume: the density of the particles is not known then.
+        """
+        primary = self.particles
+        volume = primary.solids(self.mass, self.columns.get("n"), self.columns.get("type"))
+        check_heavier(primary, volume, self.diameter)
+        return volume
+
+    def _table(self) -> dict[str, NDArray[Any]]:
+        table: dict[str, NDArray[Any]] = {
+            "step": np.full(len(self), self.step, np.int64),
+            "time": np.full(len(self), self.time),
+        }
+        for name, values in self.columns.items():
+            table[name] = np.rint(values).astype(np.int64) if name in WHOLE else values
+        return table | dict(self.texts)
+
+    def to_polars(self) -> polars.DataFrame:
+        """A polars table: step, time and every column; whole numbers as integers, the rest in SI units."""
+        import polars
+
+        return polars.DataFrame(self._table())
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The same as a pandas table (pandas must be installed)."""
+        import pandas
+
+        return pandas.DataFrame(self._table())
+
+    def to_universe(self, shift: bool = True) -> MDAnalysis.Universe:
+        """The frame as an MDAnalysis Universe; see :func:`clusterdem.io.universe.to_universe`."""
+        from .io.universe import to_universe
+
+        return to_universe(self, shift)

@@ -25,6 +25,28 @@ inline bool fits_together(int n_i, int n_j, int n_l)
   return n_i <= n_l - n_j;
 }
 
+// of an intensive value
+inline double mass_mean(double m_i, double a_i, double m_j, double a_j)
+{
+  return a_i + m_j / (m_i + m_j) * (a_j - a_i);
+}
+
+// What becomes of a value that clusters carry: fragments / the merged cluster have
+enum class CarryRule {
+  COPY,     // the parent's / that of the cluster which leads
+  SPLIT,    // a share in proportion to mass / the sum
+  MEAN,     // the parent's / the mass mean
+  SUM       // the parent's / the sum
+};
+inline bool sums_up(CarryRule rule)
+{
+  return rule == CarryRule::SPLIT || rule == CarryRule::SUM;
+}
+inline bool is_mean(CarryRule rule)
+{
+  return rule == CarryRule::MEAN;
+}
+
 struct Body {
   double mass;
   Vec3 x, v;
@@ -44,6 +66,7 @@ struct Spinning {
   double mass, radius;
   Vec3 omega;
   double inertia() const { return 0.4 * mass * radius * radius; }
+  double energy() const { return 0.5 * inertia() * dot(omega, omega); }
 };
 inline Vec3 merged_spin(const Spinning &i, const Spinning &j, double radius)
 {

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from ..errors import InputError
 from ..frame import Floats
-from ..style import COLOURS, new_figure, styled
+from ..plot.style import COLOURS, new_figure, styled
 from .divergence import divergence
 from .field import GasField
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..frame import Floats
-from ..output import atomic
+from ..io.output import atomic
 from .field import NAMES, VECTORS, Axes, GasField
 
 TITLE = "clusterdem gas; SI units (m, s, m/s, kg/m^3, m^2/s)"

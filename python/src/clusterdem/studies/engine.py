@@ -8,10 +8,11 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..errors import InputError
+from ..errors import ArgumentError, InputError
 
 
 @dataclass(frozen=True)
@@ -25,9 +26,9 @@ class Engine:
     version : str
         What it says first, such as ``LAMMPS (4 Feb 2025)``.
     identity : str
-        Hash of the version, the executable and the plugins that it loads.
+        Hash of the version and the files.
     files : tuple of Path
-        The executable and the plugins.
+        The executable, what it starts where it is a script, libraries of LAMMPS' that this maps, and the plugins.
     """
 
     path: str
@@ -48,20 +49,32 @@ def _identity(version: str, files: tuple[Path, ...]) -> str:
     return digest.hexdigest()
 
 
+PROBE = """shell "echo executable: $(readlink -f /proc/$PPID/exe)"
+shell "cat /proc/$PPID/maps"
+"""
+"""A script with which the process that really runs tells who it is; LAMMPS leaves what stands in quotes as it is."""
+
+
 def find_engine(given: str | None = None) -> Engine:
     """The executable that is given, or $CLUSTERDEM_LMP, or lmp beside this command, or lmp on the path."""
     beside = shutil.which("lmp", path=str(Path(sys.argv[0]).absolute().parent))
     named = given or os.environ.get("CLUSTERDEM_LMP")
     path = shutil.which(named) if named else beside or shutil.which("lmp")
     if path is None:
-        raise InputError("--lmp", f"{named or 'lmp'} is no executable: name LAMMPS by --lmp PATH or CLUSTERDEM_LMP")
+        raise ArgumentError("executable", f"{named or 'lmp'} is no executable: name LAMMPS here, or by CLUSTERDEM_LMP")
     path = os.path.abspath(path)
-    command = [path, "-in", os.devnull, "-log", "none"]
-    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
+    with tempfile.NamedTemporaryFile("w", suffix=".in") as script:
+        script.write(PROBE)
+        script.flush()
+        command = [path, "-in", script.name, "-log", "none"]
+        done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
     version = re.search(r"^LAMMPS \(.*?\)", done.stdout, re.MULTILINE)
     if done.returncode != 0 or version is None:
         raise InputError(path, f"is not LAMMPS, or does not start: {(done.stdout + done.stderr).strip()[-200:]}")
     files = [Path(path)]
+    files += [Path(found) for found in re.findall(r"^executable: (/.+)$", done.stdout, re.MULTILINE)]
+    files += [Path(found) for found in sorted(set(re.findall(r" (/\S*liblammps\S*)$", done.stdout, re.MULTILINE)))]
     for folder in re.findall(r"^Loaded \d+ plugins? from (.+)$", done.stdout, re.MULTILINE):
         files += sorted(Path(folder.strip()).glob("*plugin.so"))
-    return Engine(path, version[0], _identity(version[0], tuple(files)), tuple(files))
+    every = tuple(dict.fromkeys(files))
+    return Engine(path, version[0], _identity(version[0], every), every)

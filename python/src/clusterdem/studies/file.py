@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import re
 import tomllib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ..errors import InputError
+from .. import observables
+from ..analysis.sizes import check_borders
+from ..errors import ArgumentError, InputError
+from ..published.cases import CLASS_BORDERS, case_of
 
 Variables = dict[str, str]
 """LAMMPS index variables by name, each given as ``-var NAME VALUE``."""
@@ -41,6 +45,10 @@ def load_table(path: Path) -> dict[str, Any]:
         raise InputError(path, "is not a text file (UTF-8)") from error
     except tomllib.TOMLDecodeError as error:
         raise InputError(path, f"is not TOML: {error}") from error
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 @dataclass
@@ -94,6 +102,36 @@ class StudyReader:
         if len(seeds) < fewest:
             raise self.refuse(key, given, f"fewer than {fewest} show no spread between seeds")
         return tuple(seeds)
+
+    def own_observables(self, table: dict[str, Any]) -> None:
+        """Run the file of one's own that registers observables, where the study names one."""
+        name = table.get("observables_file")
+        if name is None:
+            return
+        if not isinstance(name, str) or not (self.path.parent / name).is_file():
+            raise self.refuse("observables_file", name, "no such file (relative to the study file)")
+        observables.load(self.path.parent / name)
+
+    def classes(self, table: dict[str, Any], inputs: Sequence[Path]) -> tuple[float, ...]:
+        """Borders of the size classes (m): the study's, or the paper's where all inputs are its cases; empty if open."""
+        given = table.get("classes")
+        if given is None:
+            return CLASS_BORDERS if all(case_of(path.stem) for path in inputs) else ()
+        if not isinstance(given, list) or not given or not all(_is_number(border) for border in given):
+            raise self.refuse("classes", given, "must be a list of borders of size classes (µm)")
+        borders = tuple(1e-6 * float(border) for border in given)
+        try:
+            check_borders(borders)
+        except ArgumentError as error:
+            raise self.refuse("classes", given, error.rule) from None
+        return borders
+
+    def plane(self, table: dict[str, Any]) -> str:
+        """The plane of maps and profiles."""
+        plane = table.get("plane", "xz")
+        if not isinstance(plane, str) or len(plane) != 2 or len(set(plane)) != 2 or not set(plane) <= set("xyz"):
+            raise self.refuse("plane", plane, "must be two of x, y, z, such as 'xz'")
+        return plane
 
     def variables(self, where: str, given: object) -> Variables:
         """A table of LAMMPS variables."""

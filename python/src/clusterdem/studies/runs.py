@@ -21,10 +21,10 @@ from typing import Protocol
 
 from tqdm import tqdm
 
-from ..enginelog import read_log
 from ..errors import InputError
-from ..output import write_text
-from ..rundir import RunFolder, find_run
+from ..io.enginelog import read_log
+from ..io.output import write_text
+from ..run import Run
 from .engine import Engine
 from .file import OWN_VARIABLES, Variables
 from .script import read_script
@@ -69,7 +69,7 @@ class Keeping:
     """
 
     format: str | int
-    keep: Callable[[RunFolder], None]
+    keep: Callable[[Run], None]
 
 
 class Task(Protocol):
@@ -93,7 +93,7 @@ class Task(Protocol):
 
 
 @dataclass(frozen=True)
-class Run:
+class StudyRun:
     """One run of a setting with one seed.
 
     Parameters
@@ -157,9 +157,9 @@ class Cost:
 
 @dataclass(frozen=True)
 class Failure:
-    """A run that did not end well: its command and the end of what it said."""
+    """A run that did not end well: why, and the end of what it said."""
 
-    run: Run
+    run: StudyRun
     reason: str
 
     @property
@@ -175,7 +175,7 @@ def plan(
     folder: Path,
     keeping: Keeping,
     limit: int | None = None,
-) -> list[Run]:
+) -> list[StudyRun]:
     """The runs of settings: every one with every seed."""
     runs = []
     for setting in settings:
@@ -196,11 +196,11 @@ def plan(
             own = dict(zip(OWN_VARIABLES, (str(seed), str(inputs), ".")))
             for name, value in {**setting.variables, **own}.items():
                 command += ["-var", name, value]
-            runs.append(Run(setting, seed, key, folder / key, tuple(command), engine, keeping, limit))
+            runs.append(StudyRun(setting, seed, key, folder / key, tuple(command), engine, keeping, limit))
     return runs
 
 
-def read_cost(run: Run) -> Cost:
+def read_cost(run: StudyRun) -> Cost:
     """What a finished run took."""
     return Cost(**json.loads((run.folder / "cost.json").read_text()))
 
@@ -246,7 +246,7 @@ class _Workers:
                 process.terminate()
 
 
-def perform(runs: Sequence[Run], jobs: int, quiet: bool = False) -> dict[str, Failure]:
+def perform(runs: Sequence[StudyRun], jobs: int, quiet: bool = False) -> dict[str, Failure]:
     """Do the runs that are not done, at most ``jobs`` at a time; the failures by key.
 
     An interrupted run leaves nothing that counts; finished ones are not run again.
@@ -273,7 +273,7 @@ def perform(runs: Sequence[Run], jobs: int, quiet: bool = False) -> dict[str, Fa
     return failures
 
 
-def _execute(run: Run, workers: _Workers) -> Failure | None:
+def _execute(run: StudyRun, workers: _Workers) -> Failure | None:
     part, failed = run.folder.with_name(f"{run.key}.part"), run.failed_folder
     for folder in (part, failed):
         shutil.rmtree(folder, ignore_errors=True)
@@ -297,7 +297,7 @@ def _execute(run: Run, workers: _Workers) -> Failure | None:
         write_text(part / OVERRAN, f"{run.limit}\n")
     os.replace(part, failed)
     tail = (failed / "screen.txt").read_text(errors="replace").splitlines()[-TAIL:]
-    return Failure(run, "\n".join([*tail, reason, f"all it said: {failed / 'screen.txt'}"]))
+    return Failure(run, "\n".join([reason, *tail, f"all it said: {failed / 'screen.txt'}"]))
 
 
 def _keep(folder: Path, keeping: Keeping) -> None:
@@ -305,8 +305,8 @@ def _keep(folder: Path, keeping: Keeping) -> None:
     log = read_log(folder / "log.lammps")
     if not log.steps:
         raise InputError(folder / "log.lammps", "holds no time loop: the script must run at least one step")
-    found = find_run(folder)
+    found = Run(folder)
     keeping.keep(found)
-    for file in [*found.dumps, *folder.glob("*.restart")]:
+    for file in [*found.dumps, *found.maps, *folder.glob("*.restart")]:
         file.unlink()
     write_text(folder / "cost.json", json.dumps({"wall": log.loop, "core_seconds": log.core_seconds}) + "\n")

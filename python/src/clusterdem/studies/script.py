@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
+from glob import glob
 from pathlib import Path
 
 from ..errors import InputError
@@ -20,7 +21,7 @@ class Script:
     Parameters
     ----------
     files : list of Path
-        Every file that it names and that exists, itself first.
+        Every file that it names and that exists, itself first; of a pattern such as gas.*.vtk all that match.
     names : set of str
         Variables that any line refers to or defines.
     """
@@ -84,5 +85,6 @@ def _follow(path: Path, known: Variables, script: Script) -> None:
                 raise InputError(path, rule, number)
             if before == "include":
                 _follow(named, known, script)
-            elif word.startswith("/") and named.is_file() and named not in script.files:
-                script.files.append(named)
+            elif word.startswith("/"):
+                found = [Path(name) for name in sorted(glob(word))] if set(word) & set("*?[") else [named]
+                script.files += [file for file in found if file.is_file() and file not in script.files]

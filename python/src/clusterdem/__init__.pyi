@@ -1,0 +1,30 @@
+from . import observables as observables
+from .analysis.correlation import pair_correlation as pair_correlation
+from .analysis.grid import Deposit as Deposit
+from .analysis.grid import Grid as Grid
+from .analysis.grid import deposit as deposit
+from .analysis.grid import maps_of as maps_of
+from .analysis.grid import solids_fraction as solids_fraction
+from .analysis.nonuniformity import Profile as Profile
+from .analysis.nonuniformity import Uniformity as Uniformity
+from .analysis.nonuniformity import lateral as lateral
+from .analysis.nonuniformity import measure as measure
+from .analysis.nonuniformity import strips as strips
+from .analysis.sizes import class_shares as class_shares
+from .analysis.sizes import histogram as histogram
+from .analysis.sizes import mean_diameter as mean_diameter
+from .analysis.sizes import sauter_diameter as sauter_diameter
+from .errors import ArgumentError as ArgumentError
+from .errors import InputError as InputError
+from .frame import Box as Box
+from .frame import Frame as Frame
+from .io.reader import read_dumps as read_dumps
+from .io.reader import read_file as read_file
+from .observables import How as How
+from .observables import Observable as Observable
+from .primary import Kind as Kind
+from .primary import Primary as Primary
+from .report.page import write_report as write_report
+from .run import Run as Run
+
+__version__: str

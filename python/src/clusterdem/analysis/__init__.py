@@ -1,0 +1,1 @@
+"""What frames say: maps, sizes, profiles, uniformity, conservation."""

@@ -1,0 +1,1 @@
+"""Files in and out: dumps, tables and logs of a run; VTK, tables, MDAnalysis."""

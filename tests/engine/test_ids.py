@@ -1,0 +1,76 @@
+"""IDs are unique among all atoms of the system, and what is remembered by ID never meets another pair."""
+
+import numpy as np
+import pytest
+from lammps_run import clusters, diameter, head, pair, run
+from test_fix_cluster_breakmerge import k_for
+
+TRACER = "tracer\n\n1 atoms\n\nCoords\n\n1 0.0 0.0 0.0\n\nTypes\n\n1 2\n\nDiameters\n\n1 2e-4\n\nMasses\n\n1 4.19e-9\n"
+DUMP = "write_dump all custom end.dump id type x z modify sort id format float %.17g\n"
+
+
+@pytest.mark.parametrize("np_", (1, 2, 4))
+@pytest.mark.parametrize("order", ["size first", "tracers move"])
+def test_tracers_of_another_group_that_come_in(tmp_path, order, np_):
+    """Fix deposit counts from the highest ID that it has seen, and knows of no newborns."""
+    (tmp_path / "tracer.mol").write_text(TRACER)
+    script = (
+        head(x=0.06, z=0.06).replace("create_box   1", "create_box   2").replace("0 0.003", "0 0.02")
+        + "create_atoms 1 single 0.029 0.01 0.03\ncreate_atoms 1 single 0.039 0.01 0.03\ncreate_atoms 1 single 0.019 0.01 0.03\n"
+        + f"set type 1 diameter {diameter(400)!r}\nset type 1 density 1000.0\ngroup clusters type 1\n"
+        + pair()
+        + "fix move all nve\nfix drag clusters drag/cluster 1.2 1.53e-5 velocity 0 0 2.0\n"
+        + "fix size clusters cluster/breakmerge 10 1e-4 2000 drag drag K 0.03 terms st merge no plane xz\n"
+        + "molecule tracer tracer.mol\ngroup tracers empty\nregion top block 0.001 0.059 0.001 0.019 0.05 0.058\n"
+        + "fix feed tracers deposit 20 0 5 1234 mol tracer region top near 1e-3\n"
+        + 'fix table all ave/time 10 1 10 f_size[*] mode scalar file out.txt format " %.17g"\ntimestep 1e-6\nrun 120\n'
+        + DUMP
+    )
+    r = run(tmp_path, script, np_)
+    row = r.dump()
+    assert (row["type"] == 2).sum() == 20 and r.table()[-1, 3] >= 3  # tracers, breakups
+    assert len(np.unique(row["id"])) == len(row["id"]) and row["id"].min() == 1
+    assert np.all(row["id"][row["type"] == 2] > 3)
+
+
+def touching(between: str, test: str = "end") -> str:
+    """Two pairs in contact, at rest; the first atom is taken away between two runs."""
+    d = diameter(400)
+    rows = clusters(
+        (400, (0.01, 0.005), (0, 0)),
+        (400, (0.01, 0.02), (0, 0)),
+        (400, (0.01 + 0.99 * d, 0.02), (0, 0)),
+        (400, (0.03, 0.02), (0, 0)),
+        (400, (0.03 + 0.99 * d, 0.02), (0, 0)),
+    )
+    return (
+        head()
+        + rows
+        + pair()
+        + "fix move all nve\nfix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 2 law stokes\n"
+        + f"fix size all cluster/breakmerge 1 1e-4 2000 drag drag K {k_for(100.5)!r} terms st merge no test {test}\ntimestep 1e-12\n"
+        + 'fix table all ave/time 1 1 1 f_size[*] mode scalar file out.txt format " %.17g"\nrun 3\n'
+        + between
+        + "run 3\n"
+    )
+
+
+@pytest.mark.parametrize("np_", (1, 2, 4))
+@pytest.mark.parametrize(
+    "between",
+    ["reset_atoms id sort yes\n", "group one id 1\ndelete_atoms group one compress yes\n"],
+    ids=["reset_atoms", "delete_atoms"],
+)
+def test_new_ids_are_no_ended_contacts(tmp_path, between, np_):
+    """With `test end`, contacts are remembered by ID: those that go on under other IDs have not ended."""
+    if "delete" not in between:  # IDs in another order than before
+        between = "group one id 1\ndelete_atoms group one compress no\n" + between
+    r = run(tmp_path, touching(between), np_)
+    assert r.table()[-1, 3] == 0  # no breakup
+    assert "atoms have other IDs than in the last run" in r.output
+
+
+def test_a_contact_that_ends_still_counts_after_new_ids(tmp_path):
+    between = "reset_atoms id sort yes\nrun 2\nset atom 2 x 0.005\n"
+    r = run(tmp_path, touching("group one id 1\ndelete_atoms group one compress no\n" + between))
+    assert r.table()[-1, 3] > 0
