@@ -129,12 +129,12 @@ inline std::string not_for_clusters(LAMMPS *lmp, int groupbit)
   return "";
 }
 
-// how far beyond its part of the box a rank sees every atom of this type, by the cutoffs that the pair style and the user ask
+// how far beyond its part of the box a rank sees every atom of this type and radius, by the cutoffs that the pair style and the user ask
 // for; ghosts of which the cutoff is, for a message; the command that makes ranks see further
 struct ReducedReach : Comm {    // comm_modify reduce/multi, which nobody is told
   static bool asked(const Comm *comm) { return comm->*(&ReducedReach::multi_reduce); }
 };
-inline double ghost_reach(LAMMPS *lmp, int type)
+inline double ghost_reach(LAMMPS *lmp, int type, double /*radius*/)
 {
   const Comm *comm = lmp->comm;
   const Pair *pair = lmp->force->pair;

@@ -114,18 +114,18 @@ void SceneChecks::check_ghosts(Requirements &all, const LargestDiameters &larges
   double farthest = 0.0;
   std::string fault;
   for (int type = 1; type <= atom->ntypes; type++) {
-    const double have = ghost_reach(lmp, type) * (1.0 + 1.0e-12);
-    auto need = [&](double reach, const std::string &why) {
-      if (have >= reach || reach <= farthest) return;
+    auto need = [&](double reach, double radius, const std::string &why) {
+      const double have = ghost_reach(lmp, type, radius);
+      if (have >= reach * (1.0 - 1.0e-12) || reach <= farthest) return;
       farthest = reach;
-      fault = fmt::format("{}: the ghost cutoff{} {} is below {}, {}", me, ghosts_of_a_type(lmp, type),
-                          ghost_reach(lmp, type), reach, why);
+      fault = fmt::format("{}: the ghost cutoff{} {} is below {}, {}", me, ghosts_of_a_type(lmp, type), have,
+                          reach, why);
     };
     if (largest.in_group(type) || anyone)
-      need(2.0 * claim + skin, fmt::format("twice the claim {} plus the skin", claim));
+      need(2.0 * claim + skin, 0.0, fmt::format("twice the claim {} plus the skin", claim));
     const double radius = 0.5 * largest.outside(type);
     if (radius > 0.0)
-      need(claim + radius + skin,
+      need(claim + radius + skin, radius,
            fmt::format("the claim {} plus the largest radius {} of atoms of type {} outside of the group and the "
                        "skin, so that a "
                        "rank would place clusters into what it does not see",

@@ -261,11 +261,12 @@ inline std::string not_for_clusters(LAMMPS *lmp, int)
   return "";
 }
 
-// LIGGGHTS sends a cluster only over half of the cutoff, half of the skin and its own radius: enough for contacts
-inline double ghost_reach(LAMMPS *lmp, int)
+// LIGGGHTS sends an atom only over half of the cutoff, half of the skin and its own radius: enough for contacts
+inline double ghost_reach(LAMMPS *lmp, int, double radius)
 {
   return 0.5 *
-      (std::max(lmp->force->pair->cutforce + lmp->neighbor->skin, lmp->comm->cutghostuser) + lmp->neighbor->skin);
+      (std::max(lmp->force->pair->cutforce + lmp->neighbor->skin, lmp->comm->cutghostuser) + lmp->neighbor->skin) +
+      radius;
 }
 inline std::string ghosts_of_a_type(LAMMPS *, int)
 {
