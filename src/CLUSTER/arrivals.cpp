@@ -111,7 +111,6 @@ void Arrivals::at_start_of_run()
   tagint mine = 0, all = 0;
   for (int i = 0; i < atom->nlocal; i++) {
     mine = std::max(mine, atom->tag[i]);
-    (*columns.seen)[i] = atom->tag[i];
     if (!(atom->mask[i] & groupbit)) continue;
     int &count = (*columns.count)[i];
     const int before = count;
@@ -121,6 +120,7 @@ void Arrivals::at_start_of_run()
     if (before == 0) census.add(Census::CLUSTERS_FED);
     census.add(change > 0 ? Census::FED : Census::LEFT, std::abs(change));
   }
+  know_all();
   start_counted = true;
   MPI_Allreduce(&mine, &all, 1, MPI_LMP_TAGINT, MPI_MAX, world);
   if (new_ids) tags.start_over(all);
@@ -131,6 +131,11 @@ void Arrivals::at_start_of_run()
    Contacts are remembered by IDs. A command that gives IDs anew between two runs, such as reset_atoms id or delete_atoms with
    compress yes, would leave the memory of one pair to another.
 ------------------------------------------------------------------------- */
+
+void Arrivals::know_all()
+{
+  for (int i = 0; i < atom->nlocal; i++) (*columns.seen)[i] = atom->tag[i];
+}
 
 bool Arrivals::renumbered() const
 {

@@ -36,6 +36,7 @@ class Arrivals : protected EnginePointers {
   void check_size(int i);
 
   void at_start_of_run();                // collective: counts all, and notes the highest ID
+  void know_all();                       // owned atoms: whoever is there has not come in later
   std::vector<int> newcomers() const;    // owned atoms, of any group, that came in since the last rebuild
   void welcome(const std::vector<int> &mine, Halo &);    // collective: counts and numbers them
 

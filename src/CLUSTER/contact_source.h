@@ -36,7 +36,7 @@ class ContactSource : protected Pointers {
   ContactSource(class LAMMPS *lmp) : Pointers(lmp) {}
 
   // find the pair styles; stops with an error that names the fix if there is none
-  void find(const std::string &fix);
+  void find(const std::string &fix, bool looked_at = true);
 
   // in words: the pair of types whose cutoff is shortest of where its largest atoms touch, if any is, so that contacts
   // would be missed; else empty

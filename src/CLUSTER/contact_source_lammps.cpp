@@ -43,7 +43,7 @@ static bool acts(const Pair *whole, const Pair *sub, int type_i, int type_j)
 
 /* ---------------------------------------------------------------------- */
 
-void ContactSource::find(const std::string &fix)
+void ContactSource::find(const std::string &fix, bool)
 {
   pairs.clear();
   for (const char *word : {"^granular", "^gran/"})

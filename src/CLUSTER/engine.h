@@ -76,6 +76,13 @@ inline Fix *find_fix(LAMMPS *lmp, const std::string &id)
   return lmp->modify->get_fix_by_id(id);
 }
 
+// clusters that another fix still moves in its own way: none in LAMMPS
+class MotionOfOthers {
+ public:
+  void find(LAMMPS *) {}
+  bool holds(int, bigint) const { return false; }
+};
+
 // fixes whose values for an atom tell of its contacts, not of itself
 inline std::vector<Fix *> fixes_that_remember_contacts(LAMMPS *lmp)
 {
@@ -129,12 +136,12 @@ inline std::string not_for_clusters(LAMMPS *lmp, int groupbit)
   return "";
 }
 
-// how far beyond its part of the box a rank sees every atom of this type, by the cutoffs that the pair style and the user ask
+// how far beyond its part of the box a rank sees every atom of this type and radius, by the cutoffs that the pair style and the user ask
 // for; ghosts of which the cutoff is, for a message; the command that makes ranks see further
 struct ReducedReach : Comm {    // comm_modify reduce/multi, which nobody is told
   static bool asked(const Comm *comm) { return comm->*(&ReducedReach::multi_reduce); }
 };
-inline double ghost_reach(LAMMPS *lmp, int type)
+inline double ghost_reach(LAMMPS *lmp, int type, double /*radius*/)
 {
   const Comm *comm = lmp->comm;
   const Pair *pair = lmp->force->pair;

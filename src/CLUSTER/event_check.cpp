@@ -10,6 +10,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "force.h"
+#include "update.h"
 
 using namespace LAMMPS_NS;
 using namespace ClusterDEM;
@@ -30,6 +31,7 @@ void EventCheck::init(const std::string &me, Requirements &all)
   sizes.init(me);
   walls.init(me, all);
   carried_by_clusters.init(me, all);
+  others.find(lmp);
   const double reach = settings.event.claim / (settings.event.spacing * settings.kinds.smallest_diameter()) + 1.0;
   const bool planar = settings.event.planar;
   lattices = std::make_unique<Lattices>(planar ? 0 : -1, planar ? 2 : -1, reach);
@@ -122,7 +124,7 @@ EventCheck::Breakups EventCheck::breakups()
 {
   Breakups wanted;
   for (int i = 0; settings.event.breaking && i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit) || !tested(i)) continue;
+    if (!(atom->mask[i] & groupbit) || !tested(i) || others.holds(i, update->ntimestep)) continue;
     census.add(Census::TESTS);
     const SizeRule &rule = sizes.rule(settings.kinds.of_type(atom->type[i]));
     const int n = (*columns.count)[i];
@@ -159,7 +161,8 @@ Crowd EventCheck::crowd() const
     c.kind[i] = atom->mask[i] & groupbit ? settings.kinds.of_type(atom->type[i]) : -1;
   c.size.assign(c.nall, Crowd::Size());
   for (int i = 0; i < c.nlocal; i++)
-    if (c.kind[i] >= 0) c.size[i] = {(*columns.count)[i], sizes.stable(i).n, 0};
+    if (c.kind[i] >= 0)
+      c.size[i] = {(*columns.count)[i], sizes.stable(i).n, others.holds(i, update->ntimestep) ? 1 : 0};
   c.nearest_image = [this](int i, ClusterID other) {
     const int image = atom->map(static_cast<tagint>(other));
     return image < 0 ? -1 : domain->closest_image(i, image);

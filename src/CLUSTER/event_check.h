@@ -54,6 +54,7 @@ class EventCheck : protected EnginePointers {
   SizeCheck sizes;
   ClusterWalls walls;
   CarriedValues carried_by_clusters;
+  MotionOfOthers others;    // whose clusters take no part
   std::unique_ptr<ClusterDEM::Lattices> lattices;
   std::vector<Event> to_do;
   std::vector<int> vanishing;

@@ -98,7 +98,7 @@ void FixClusterBreakMerge::init()
   scene.check_plane(all);
   scene.check_room(all);
   scene.check_lattice(all);
-  pairs.find(me);
+  pairs.find(me, settings.looks_at_contacts());
   largest.find();
   check_cutoffs(all);
   check.init(me, all);
@@ -135,6 +135,7 @@ void FixClusterBreakMerge::setup(int)
 {
   check.make_cells(this);
   measure();
+  arrivals.know_all();    // LIGGGHTS clears what fixes keep per atom after setup_pre_exchange()
   output_step = -1;
 }
 

@@ -30,7 +30,7 @@ class LargestDiameters : protected EnginePointers {
   double outside(int type) const
   {
     return diameters[type];
-  }                                     // of atoms that are not in the group; 0: there are none
+  }    // of atoms that are not in the group; 0: there are none
   double of(int type) const;            // of both; 0: there are none
   bool may_meet(int a, int b) const;    // a type may have one atom alone
 

@@ -28,6 +28,11 @@ void SceneChecks::check_engine(Requirements &all) const
 {
   if (utils::strmatch(update->integrate_style, "^respa"))
     all.unmet(fmt::format("{} does not support run_style respa: use run_style verlet", me));
+  if ((settings.event.breaking || settings.event.merging) && reruns())
+    all.unmet(fmt::format(
+        "{} does not support rerun of events: a dump holds the places of other clusters than there are "
+        "now. Use 'break no merge no' for the dump of a run without events",
+        me));
   const std::string units = foreign_units(lmp, me);
   all.unmet_if(!units.empty(), units);
   if (!settings.size.gravity_given && strcmp(update->unit_style, "si") != 0)
@@ -35,6 +40,16 @@ void SceneChecks::check_engine(Requirements &all) const
                           me, update->unit_style));
   if (find_fixes(lmp, "^cluster/breakmerge").size() > 1)
     all.unmet(fmt::format("{}: only one fix cluster/breakmerge at a time", me));
+}
+
+/* ----------------------------------------------------------------------
+   nobody is told; but a run starts at the step that there is, and lasts as long as it says
+------------------------------------------------------------------------- */
+
+bool SceneChecks::reruns() const
+{
+  return update->whichflag == 1 &&
+      (update->ntimestep != update->firststep || update->laststep - update->firststep != update->nsteps);
 }
 
 /* ----------------------------------------------------------------------
@@ -99,18 +114,18 @@ void SceneChecks::check_ghosts(Requirements &all, const LargestDiameters &larges
   double farthest = 0.0;
   std::string fault;
   for (int type = 1; type <= atom->ntypes; type++) {
-    const double have = ghost_reach(lmp, type) * (1.0 + 1.0e-12);
-    auto need = [&](double reach, const std::string &why) {
-      if (have >= reach || reach <= farthest) return;
+    auto need = [&](double reach, double radius, const std::string &why) {
+      const double have = ghost_reach(lmp, type, radius);
+      if (have >= reach * (1.0 - 1.0e-12) || reach <= farthest) return;
       farthest = reach;
-      fault = fmt::format("{}: the ghost cutoff{} {} is below {}, {}", me, ghosts_of_a_type(lmp, type),
-                          ghost_reach(lmp, type), reach, why);
+      fault = fmt::format("{}: the ghost cutoff{} {} is below {}, {}", me, ghosts_of_a_type(lmp, type), have,
+                          reach, why);
     };
     if (largest.in_group(type) || anyone)
-      need(2.0 * claim + skin, fmt::format("twice the claim {} plus the skin", claim));
+      need(2.0 * claim + skin, 0.0, fmt::format("twice the claim {} plus the skin", claim));
     const double radius = 0.5 * largest.outside(type);
     if (radius > 0.0)
-      need(claim + radius + skin,
+      need(claim + radius + skin, radius,
            fmt::format("the claim {} plus the largest radius {} of atoms of type {} outside of the group and the "
                        "skin, so that a "
                        "rank would place clusters into what it does not see",

@@ -42,6 +42,7 @@ class SceneChecks : protected EnginePointers {
   const std::string me;
   const BreakMergeSettings &settings;
 
+  bool reruns() const;    // positions of a dump, by command rerun
   std::string periodic_box_too_short() const;
   bigint count_outside(int other) const;    // clusters of the group that are not in the other one
 };

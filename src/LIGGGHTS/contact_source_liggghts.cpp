@@ -20,7 +20,7 @@ using namespace ClusterDEM;
 
 /* ---------------------------------------------------------------------- */
 
-void ContactSource::find(const std::string &fix)
+void ContactSource::find(const std::string &fix, bool looked_at)
 {
   ErrorWords words(error);
   pairs.clear();
@@ -28,7 +28,7 @@ void ContactSource::find(const std::string &fix)
   if (!gran)
     words.all(FLERR, "{} needs a granular pair style (gran), but the pair style is {}", fix,
               force->pair_style ? force->pair_style : "none");
-  if (!gran->contact_match("normal", "hooke/stiffness"))
+  if (looked_at && !gran->contact_match("normal", "hooke/stiffness"))
     words.all(FLERR, "{} needs a linear contact: pair_style gran model hooke/stiffness", fix);
   if (force->newton_pair) words.all(FLERR, "{} needs the contacts across ranks on both of them: newton off", fix);
   pairs.push_back(gran);

@@ -224,6 +224,26 @@ inline Fix *find_fix(LAMMPS *lmp, const std::string &id)
   return ModifyWords(lmp->modify).get_fix_by_id(id);
 }
 
+// Particles of fix insert/stream move with the stream until the step of their release, which the fix keeps for each: behind
+// the place of insertion the step of insertion, 0 for all others, and that of release.
+class MotionOfOthers {
+ public:
+  void find(LAMMPS *lmp)
+  {
+    const int k = lmp->modify->find_fix("release_fix_insert_stream");
+    release = k < 0 ? nullptr : lmp->modify->fix[k];
+  }
+  bool holds(int i, bigint step) const
+  {
+    if (!release) return false;
+    const double *row = release->array_atom[i];
+    return row[3] != 0.0 && static_cast<double>(step) <= row[4];
+  }
+
+ private:
+  Fix *release = nullptr;
+};
+
 // fixes whose values for an atom tell of its contacts, not of itself
 inline std::vector<Fix *> fixes_that_remember_contacts(LAMMPS *lmp)
 {
@@ -261,11 +281,12 @@ inline std::string not_for_clusters(LAMMPS *lmp, int)
   return "";
 }
 
-// LIGGGHTS sends a cluster only over half of the cutoff, half of the skin and its own radius: enough for contacts
-inline double ghost_reach(LAMMPS *lmp, int)
+// LIGGGHTS sends an atom only over half of the cutoff, half of the skin and its own radius: enough for contacts
+inline double ghost_reach(LAMMPS *lmp, int, double radius)
 {
   return 0.5 *
-      (std::max(lmp->force->pair->cutforce + lmp->neighbor->skin, lmp->comm->cutghostuser) + lmp->neighbor->skin);
+      (std::max(lmp->force->pair->cutforce + lmp->neighbor->skin, lmp->comm->cutghostuser) + lmp->neighbor->skin) +
+      radius;
 }
 inline std::string ghosts_of_a_type(LAMMPS *, int)
 {

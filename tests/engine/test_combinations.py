@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import scenes
-from lammps_run import CUTOFF, diameter, pair, random_clusters, run
+from lammps_run import CUTOFF, M_P, diameter, have_mpirun, pair, random_clusters, run, run_file
 
 HEAD = """
 units        si
@@ -66,6 +66,7 @@ WORKS = {
     "fix nve/noforce": ALL.replace("all nve\n", "all nve/noforce\n"),
     "a second run after a set command": ALL + f"set atom 1 diameter {diameter(1000)!r} density 1000\nrun 100\n",
     "minimize in between": ALL + "min_style cg\nminimize 0 1e-4 5 5\n" + RUN,
+    "minimize in between, by fire": ALL + "min_style fire\nminimize 0 1e-4 50 50\n" + RUN,
     "reset_atoms id in between": ALL + "reset_atoms id sort yes\n" + RUN,
     "change_box in between": ALL + "change_box all z final 0 0.04 boundary p f p\n" + RUN,
     "run every": ALL.replace(RUN, 'run 300 every 30 "set group all omega 0 0 0"\n'),
@@ -92,11 +93,15 @@ def test_works(tmp_path, name):
     assert table[-1, scenes.BREAKUPS] > 0
 
 
+DUMPED = "dump d all custom 50 d.dump id type x y z vx vy vz\nrun 300\nundump d\n"
+
 REFUSED = {
     "two dimensions": ("units si\ndimension 2\natom_style sphere\ncomm_modify vel yes\nregion box block 0 1 0 1 -0.1 0.1\ncreate_box 1 box\n" + pair() + GAS + SIZE, "requires a 3-d simulation"),
     "triclinic": (ALL.replace(RUN, "change_box all triclinic\n" + RUN), "does not support triclinic boxes"),
     "triclinic before": (ALL.replace(SIZE, "change_box all triclinic\n" + SIZE), "does not support triclinic boxes"),
     "no radius": (HEAD.replace("atom_style   sphere", "atom_style charge") + "mass * 1\n" + pair() + SIZE, "requires atom style sphere or cluster"),
+    "rerun": (ALL.replace(RUN, DUMPED + "rerun d.dump first 0 last 300 dump x y z vx vy vz\n"), "does not support rerun of events"),
+    "rerun that makes atoms anew": (ALL.replace("merge 0.2", "merge no break no").replace(RUN, DUMPED + "rerun d.dump dump x y z vx vy vz purge yes add yes replace no\n"), "has diameter 1, which does not fit its"),
     "respa": (ALL.replace(RUN, "run_style respa 2 2\n" + RUN), "does not support run_style respa"),
     "fix adapt": (after("variable d equal 1e-3\nfix grow all adapt 10 atom diameter v_d").replace("atom_style   sphere", "atom_style sphere 1"), "does not support fix adapt grow, which changes diameters"),
     "two fixes": (after(SIZE.replace("fix size", "fix more")), "only one fix cluster/breakmerge at a time"),
@@ -153,3 +158,63 @@ def test_fragments_stay_within_the_region(tmp_path):
     assert len(row["id"]) > 3 * 18
     reach = np.hypot(row["x"] - 0.015, row["z"] - 0.015) + 0.5 * row["diameter"]
     assert reach.max() < 0.013 * (1 + 1e-12)
+
+
+@pytest.mark.parametrize("np_", (1, 2))
+def test_rerun_of_a_run_without_events(tmp_path, np_):
+    """The table of the rerun is that of the run, frame by frame: counts, sizes and forces are measured anew."""
+    script = ALL.replace("merge 0.2", "merge no break no").replace(RUN, DUMPED)
+    again = script.replace("run 300\n", "").replace(DUMPED.splitlines()[0] + "\n", "").replace("undump d\n", "")
+    first = run(tmp_path, script, np_).table()
+    second = run(tmp_path, again + "rerun d.dump dump x y z vx vy vz\n", np_).table()
+    frames = np.isin(first[:, 0], second[:, 0])
+    assert len(second) == 7 and frames.sum() == 7
+    assert np.allclose(second[:, 1:12], first[frames, 1:12], rtol=1e-4)
+
+
+MOLECULE = """two clusters, no bond
+
+2 atoms
+
+Coords
+
+1 0 0 0
+2 0.0012 0 0
+
+Types
+
+1 1
+2 1
+
+Diameters
+
+1 {d}
+2 {d}
+
+Masses
+
+1 {m}
+2 {m}
+"""
+
+
+@pytest.mark.parametrize("np_", (1, 2))
+def test_clusters_come_as_molecules(tmp_path, np_):
+    """Command molecule as a template of several clusters at once, for fix deposit."""
+    (tmp_path / "two.mol").write_text(MOLECULE.format(d=repr(diameter(400)), m=repr(400 * M_P)))
+    feed = "molecule two two.mol\nfix feed all deposit 5 0 20 777 region plane mol two near 0.001\n"
+    table = run(tmp_path, ALL.replace("timestep 2e-6\n", feed + "timestep 2e-6\n"), np_).table()
+    assert table[-1, 25] == 5 * 2 * 400
+    assert np.array_equal(table[:, 2], 100 * 400 + table[:, 25] - table[:, 26]) and table[-1, scenes.BREAKUPS] > 0
+
+
+def test_partitions_run_side_by_side(tmp_path):
+    """Each is as it is alone."""
+    if not have_mpirun():
+        pytest.skip("needs mpirun")
+    script = ALL.replace("100 1 plane", "100 ${seed} plane").replace("file out.txt", "file out.${seed}.txt")
+    (tmp_path / "in.lmp").write_text("variable seed universe 1 2\n" + script)
+    run_file(tmp_path, ["-partition", "2x1", "-in", "in.lmp", "-screen", "none"], 2)
+    for seed in (1, 2):
+        alone = run(tmp_path / str(seed), f"variable seed index {seed}\n" + script)
+        assert np.array_equal(alone.table(f"out.{seed}.txt"), np.loadtxt(tmp_path / f"out.{seed}.txt"))
