@@ -97,8 +97,7 @@ inline void prepare_regions(const std::vector<Region *> &regions)
 inline std::string region_without_sides(const Region *region)
 {
   if (region->openflag && region->dynamic) return "has open faces and moves: no place can be told to be within";
-  const bool joins = utils::strmatch(region->style, "^(union|intersect)$");    // others have no list
-  for (int k = 0; joins && k < region->nregion; k++)
+  for (int k = 0; region->reglist && k < region->nregion; k++)
     if (region->reglist[k]->openflag || !region_without_sides(region->reglist[k]).empty())
       return "joins regions with open faces: no place can be told to be within";
   return "";
