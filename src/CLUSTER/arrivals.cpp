@@ -106,7 +106,8 @@ void Arrivals::check_size(int i)
 
 void Arrivals::at_start_of_run()
 {
-  forget_contacts_if_renumbered();
+  const bool new_ids = renumbered();
+  if (new_ids) forget_contacts();
   tagint mine = 0, all = 0;
   for (int i = 0; i < atom->nlocal; i++) {
     mine = std::max(mine, atom->tag[i]);
@@ -122,7 +123,8 @@ void Arrivals::at_start_of_run()
   }
   start_counted = true;
   MPI_Allreduce(&mine, &all, 1, MPI_LMP_TAGINT, MPI_MAX, world);
-  tags.raise(all);
+  if (new_ids) tags.start_over(all);
+  else tags.raise(all);
 }
 
 /* ----------------------------------------------------------------------
@@ -130,7 +132,7 @@ void Arrivals::at_start_of_run()
    compress yes, would leave the memory of one pair to another.
 ------------------------------------------------------------------------- */
 
-void Arrivals::forget_contacts_if_renumbered()
+bool Arrivals::renumbered() const
 {
   int mine = 0, any;
   for (int i = 0; i < atom->nlocal; i++) {
@@ -138,7 +140,11 @@ void Arrivals::forget_contacts_if_renumbered()
     if (seen && seen != atom->tag[i]) mine = 1;
   }
   MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
-  if (!any) return;
+  return any;
+}
+
+void Arrivals::forget_contacts()
+{
   for (int i = 0; i < atom->nlocal; i++) {
     if (columns.partners) (*columns.partners)[i].clear();
     for (Fix *memory : fixes_that_remember_contacts(lmp)) memory->set_arrays(i);

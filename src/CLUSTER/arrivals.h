@@ -52,7 +52,8 @@ class Arrivals : protected EnginePointers {
   bool start_counted;    // what is found from now on has come in
 
   int whole_number(int i) const;
-  void forget_contacts_if_renumbered();
+  bool renumbered() const;
+  void forget_contacts();
   void number_by_place(const std::vector<int> &mine, Halo &);
 };
 

@@ -27,6 +27,7 @@ class NewbornTags : protected EnginePointers {
   NewbornTags(class LAMMPS *lmp) : EnginePointers(lmp), highest(0) {}
 
   void raise(tagint tag) { highest = tag > highest ? tag : highest; }
+  void start_over(tagint tag) { highest = tag; }    // where all IDs were given anew
   tagint highest_used() const { return highest; }
 
   // collective: sets first of every birth, and raises the highest ID used. Keys lie below `range`, somewhat evenly:

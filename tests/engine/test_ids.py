@@ -74,3 +74,26 @@ def test_a_contact_that_ends_still_counts_after_new_ids(tmp_path):
     between = "reset_atoms id sort yes\nrun 2\nset atom 2 x 0.005\n"
     r = run(tmp_path, touching("group one id 1\ndelete_atoms group one compress no\n" + between))
     assert r.table()[-1, 3] > 0
+
+
+@pytest.mark.parametrize("np_", (1, 2))
+def test_ids_start_over_where_a_user_gives_them_anew(tmp_path, np_):
+    """The remedy for IDs that run out: reset_atoms id between two runs. Newborns are numbered from there."""
+    size = "fix size all cluster/breakmerge 1 1e-4 2000 drag drag K {} terms st merge no plane xz\n"
+    script = (
+        head()
+        + clusters((400, (0.01, 0.02), (0, 0)), (400, (0.03, 0.02), (0, 0)))
+        + pair()
+        + "fix move all nve\nfix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 2 law stokes\n"
+        + size.format(k_for(100.5))
+        + "timestep 1e-12\nrun 1\ngroup first id 1:4\ndelete_atoms group first compress no\nreset_atoms id sort yes\n"
+        + "fix size all cluster/breakmerge 1 1e-4 2000 drag drag K 1e9 terms st merge no plane xz\nrun 0\n"
+        + DUMP
+    )
+    # the same fix goes on: two breakups into four make 8, IDs 1 to 8; four are left and become 1 to 4
+    script = script.replace(
+        "fix size all cluster/breakmerge 1 1e-4 2000 drag drag K 1e9 terms st merge no plane xz\nrun 0\n",
+        f"set atom 1 diameter {repr(diameter(400))} density 1000\nrun 1\n",
+    )
+    row = run(tmp_path, script, np_).dump()
+    assert list(row["id"]) == list(range(1, 8))  # 4 and 3 more, not from 9 on
