@@ -103,7 +103,11 @@ inline void prepare_regions(const std::vector<Region *> &regions)
 // why no sphere can be kept within a region; empty if it can
 inline std::string region_without_sides(const Region *region)
 {
-  return region->openflag && region->dynamic ? "has open faces and moves: no place can be told to be within" : "";
+  if (region->openflag && region->dynamic) return "has open faces and moves: no place can be told to be within";
+  for (int k = 0; region->reglist && k < region->nregion; k++)
+    if (region->reglist[k]->openflag || !region_without_sides(region->reglist[k]).empty())
+      return "joins regions with open faces: no place can be told to be within";
+  return "";
 }
 
 inline Region *region_of(Domain *domain, const std::string &id)

@@ -74,9 +74,11 @@ void SceneWalls::find()
           add_plane(side / 2, side % 2 ? domain->boxhi[side / 2] : domain->boxlo[side / 2]);
         else add_plane(side / 2, place);
       };
-      if (const auto *of_region = dynamic_cast<const FixWallGranRegion *>(fix))
-        regions.push_back(of_region->region);
-      else if (const auto *wall = dynamic_cast<const FixWallGran *>(fix)) {
+      if (const auto *of_region = dynamic_cast<const FixWallGranRegion *>(fix)) {
+        const std::string fault = region_without_sides(of_region->region);
+        if (fault.empty()) regions.push_back(of_region->region);
+        else unknown.push_back(fmt::format("{}, whose region {} {},", name, of_region->region->id, fault));
+      } else if (const auto *wall = dynamic_cast<const FixWallGran *>(fix)) {
         const int axis = GranularWall::style(*wall);
         if (axis > 2) {
           const double radius = GranularWall::cylinder(*wall, 0);

@@ -98,3 +98,31 @@ def test_a_merge_at_a_wall_waits(tmp_path, away, merged, np_):
     row = run(tmp_path, script, np_).dump()
     assert len(row["id"]) == 2 - merged
     assert (row["x"] - 0.5 * row["diameter"]).min() >= 0.01
+
+
+HALVES = (
+    "region a block 0.005 0.015 0.005 0.025 0.005 0.025 units box open 2\n"
+    "region b block 0.015 0.025 0.005 0.025 0.005 0.025 units box open 1\nregion u union 2 a b\n"
+)
+MOVING = "variable dx equal 1e-4*step\nregion u block 0.005 0.025 0.005 0.025 0.005 0.025 units box open 6 move v_dx NULL NULL\n"
+
+
+@pytest.mark.parametrize(
+    "region, why", [(HALVES, "joins regions with open faces"), (MOVING, "has open faces and moves")]
+)
+def test_open_regions_without_an_inside_are_refused(tmp_path, region, why):
+    """The engine says of every place that it is within: 0.7 mm behind the wall in the first, 0.2 mm in the second."""
+    wall = region + f"fix w all wall/gran/region {LAW} region u"
+    r = run(tmp_path, burst((0.0145, 0.0245, 0.015), wall, ""), check=False)
+    assert r.code != 0 and f"does not see where fix wall/gran/region w, whose region u {why}" in r.output, r.output[
+        -900:
+    ]
+    kept = run(
+        tmp_path / "told",
+        burst(
+            (0.0145, 0.0245, 0.015),
+            wall + "\nregion in block 0.006 0.024 0.006 0.025 0.006 0.024 units box",
+            "region in",
+        ),
+    ).dump()
+    assert len(kept["id"]) == 133 and (kept["y"] + kept["diameter"] / 2).max() <= 0.025 * (1 + 1e-12)
