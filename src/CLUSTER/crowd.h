@@ -49,7 +49,6 @@ struct Crowd {
 // Two clusters in contact, at least one of them owned.
 struct Touch {
   int i, j;
-  bool listed_twice;    // the rank that owns j has this contact, too
 };
 
 }    // namespace LAMMPS_NS

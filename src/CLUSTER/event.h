@@ -16,7 +16,7 @@
 namespace LAMMPS_NS {
 
 struct Event {
-  int i;                // the owned cluster that leads: the parent, or the one with the lower ID
+  int i = -1;           // the owned cluster that leads: the parent, or the one with the lower ID
   int j = -1;           // its partner, owned or ghost; none if negative
   int particles = 0;    // in all
   ClusterDEM::BreakPlan plan;

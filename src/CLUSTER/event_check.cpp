@@ -181,8 +181,7 @@ Crowd EventCheck::crowd() const
 std::vector<Touch> EventCheck::touches() const
 {
   std::vector<Touch> list;
-  for (const auto &contact : pairs.contacts())
-    list.push_back({contact.i, contact.j, !force->newton_pair && contact.j >= atom->nlocal});
+  for (const auto &contact : pairs.contacts()) list.push_back({contact.i, contact.j});
   return list;
 }
 

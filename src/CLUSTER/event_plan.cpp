@@ -208,6 +208,6 @@ void EventPlan::find_dying()
 {
   for (int j = 0; j < crowd.nlocal; j++) {
     const int i = partners.partner(j);
-    if (i >= 0 && crowd.id[i] < crowd.id[j] && rooms[i].state == PROCEEDS) vanishing.push_back(j);
+    if (i >= 0 && rooms[i].state == PROCEEDS) vanishing.push_back(j);
   }
 }

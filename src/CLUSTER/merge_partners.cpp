@@ -50,7 +50,7 @@ bool MergePartners::one_round(const std::vector<Courtship> &possible)
     const int i = c.touch.i, j = c.touch.j;
     if (chosen[i] || chosen[j]) continue;
     court(i, {c.slip, crowd.id[j]});
-    if (!c.touch.listed_twice) court(j, {c.slip, crowd.id[i]});
+    court(j, {c.slip, crowd.id[i]});
   }
   halo.reverse(suitors, [](Suitor &mine, const Suitor &theirs) {
     if (theirs.id && theirs.better_than(mine)) mine = theirs;

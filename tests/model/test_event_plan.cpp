@@ -329,7 +329,7 @@ struct RankedPlan {
         const bool ghost = j >= d.crowd.nlocal;
         if (norm(to_vec3(d.x[i]) - to_vec3(d.x[j])) >= d.radius[i] + d.radius[j]) continue;
         if (ghost && newton && std::tie(d.x[j][0], d.x[j][2]) < std::tie(d.x[i][0], d.x[i][2])) continue;
-        list.push_back({i, j, ghost && !newton});
+        list.push_back({i, j});
       }
     return list;
   }
