@@ -9,7 +9,7 @@ from checkout import ROOT
 
 ENTRY = re.compile(r"^`(.+)`\n: ", re.M)
 QUOTED = [match[1] for match in ENTRY.finditer((ROOT / "doc/faq.md").read_text(encoding="utf-8"))]
-LAMMPS_OWN = {"Lost atoms"}
+LAMMPS_OWN = {"Lost atoms", "requires atom attribute omega", "Unrecognized atom style 'cluster'"}
 CPP_STRING = re.compile(r'"((?:[^"\\\n]|\\.)*)"(?:\s*"((?:[^"\\\n]|\\.)*)")*')
 
 
