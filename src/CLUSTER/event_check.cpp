@@ -32,6 +32,10 @@ void EventCheck::init(const std::string &me, Requirements &all)
   walls.init(me, all);
   carried_by_clusters.init(me, all);
   others.find(lmp);
+}
+
+void EventCheck::make_lattices()
+{
   const double reach = settings.event.claim / (settings.event.spacing * settings.kinds.smallest_diameter()) + 1.0;
   const bool planar = settings.event.planar;
   lattices = std::make_unique<Lattices>(planar ? 0 : -1, planar ? 2 : -1, reach);

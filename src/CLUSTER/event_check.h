@@ -33,6 +33,7 @@ class EventCheck : protected EnginePointers {
              Halo &, int groupbit);
 
   void init(const std::string &me, Requirements &);
+  void make_lattices();    // once their size is known to be bounded
   void make_cells(class Fix *owner) { sizes.make_cells(owner); }
   CellAverages *cells() { return sizes.cells(); }
   void measure();    // contacts and stable sizes, as they are now; ghosts must have moved along

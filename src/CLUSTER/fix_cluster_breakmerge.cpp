@@ -103,6 +103,7 @@ void FixClusterBreakMerge::init()
   check_cutoffs(all);
   check.init(me, all);
   all.refuse();
+  check.make_lattices();
   apply.init();
   if (settings.looks_at_contacts()) pairs.expect_contacts(settings.next_check(update->ntimestep));
   scene.check_step(all, pairs.stiffest(groupbit, settings.kinds.kind(0).diameter(settings.kinds.limits.lo)));

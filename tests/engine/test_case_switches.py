@@ -114,8 +114,22 @@ def test_dump_styles(tmp_path):
 
 @pytest.mark.parametrize("contact", ["hertz", "hooke"])
 def test_contacts_of_turning_clusters_without_rotation_are_refused_in_words(tmp_path, contact):
-    r = run_file(tmp_path, ["-in", str(INPUTS / "case1.in"), "-log", "none"], check=False, inputs=INPUTS, contact=contact, tend=1e-5)
+    r = run_file(
+        tmp_path,
+        ["-in", str(INPUTS / "case1.in"), "-log", "none"],
+        check=False,
+        inputs=INPUTS,
+        contact=contact,
+        tend=1e-5,
+    )
     assert r.code == 2 and f"-var contact {contact} is of clusters that can turn" in r.output
     assert "add -var atoms sphere" in r.output
-    turning = run_file(tmp_path, ["-in", str(INPUTS / "case1.in"), "-log", "none"], inputs=INPUTS, contact=contact, atoms="sphere", tend=1e-5)
+    turning = run_file(
+        tmp_path,
+        ["-in", str(INPUTS / "case1.in"), "-log", "none"],
+        inputs=INPUTS,
+        contact=contact,
+        atoms="sphere",
+        tend=1e-5,
+    )
     assert turning.code == 0

@@ -407,7 +407,7 @@ def atom_ids(draw: Draw) -> Scene:
 
 WORDS: list[tuple[str, str]] = [
     # keyword and value; the only refusal that is right, or "" where it must hold
-    ("void 0.999999999", "pair cutoff"),
+    ("void 0.999999999", "whole number"),
     ("spacing 1e6", "small claim"),
     ("hysteresis 1e300", ""),
     ("epsmf 0.999999999", ""),

@@ -26,7 +26,8 @@ REFUSALS = {
     "K emms": r"K emms \S+ gives K = ",
     "short box": r"below four times the claim .*: an event would meet its own image",
     "thin rank": r"a rank's part of the box is .* below the claim",
-    "pair cutoff": r"the pair cutoff of types .* below the largest cluster diameter",
+    "pair cutoff": r"the pair cutoff of types .* is .*, below",
+    "whole number": r"does not fit its \d+ primary particles|not a whole number within 1e-6",
     "ghost cutoff": r"the ghost cutoff .* is below .* twice the claim",
     "small claim": r"claim .* is below .*: the largest could never break",
     "too large": r"holds \d+ primary particles, above the upper limit",
@@ -69,14 +70,16 @@ def ran(scene: Scene, folder: Path) -> Outcome:
     message = error_line(result.output)
     if not message:
         return Outcome("failed", f"ended with code {result.code} and no ERROR line")
-    reason = next((name for name, pattern in REFUSALS.items() if re.search(pattern, message)), None)
-    if reason is None:
+    reasons = [name for name, pattern in REFUSALS.items() if re.search(pattern, message)]
+    if not reasons:
         return Outcome("failed", f"an error that is not a known refusal: {message}")
-    if scene.expect == HELD or reason not in scene.refusals:
-        return Outcome("failed", f"refused ({reason}), which is not right here: {message}")
-    return Outcome("refused", reason)
+    right = [reason for reason in reasons if reason in scene.refusals]
+    if scene.expect == HELD or not right:
+        return Outcome("failed", f"refused ({', '.join(reasons)}), which is not right here: {message}")
+    return Outcome("refused", right[0])
 
 
 def error_line(output: str) -> str:
-    lines = [line.strip() for line in output.splitlines() if line.startswith("ERROR")]
-    return lines[0] if lines else ""
+    """The first error; of several requirements that are told together, all."""
+    match = re.search(r"^ERROR.*(?:\n  .*)*", output, re.M)
+    return match[0] if match else ""
