@@ -154,8 +154,7 @@ inline double ghost_reach(LAMMPS *lmp, int type, double /*radius*/)
   double of_pairs = 0.0;
   for (int other = 1; other <= lmp->atom->ntypes; other++)
     of_pairs = std::max(of_pairs, std::sqrt(pair->cutsq[type][other]) + skin);
-  if (comm->mode == Comm::MULTIOLD)
-    return comm->cutusermultiold ? std::max(of_pairs, comm->cutusermultiold[type]) : of_pairs;
+  if (comm->mode != Comm::MULTI) return 0.0;    // multi/old, which newer versions have no more: not looked at
   // collections are types, unless the user makes them otherwise: then any may hold this type
   const double *first = comm->cutusermulti, *last = first ? first + comm->ncollections_cutoff : first;
   if (lmp->neighbor->custom_collection_flag || ReducedReach::asked(comm))
@@ -169,11 +168,8 @@ inline std::string ghosts_of_a_type(LAMMPS *lmp, int type)
 inline std::string ask_for_ghosts(LAMMPS *lmp, double reach)
 {
   const int mode = lmp->comm->mode;
-  return fmt::format("comm_modify cutoff{} {}",
-                     mode == Comm::SINGLE      ? ""
-                         : mode == Comm::MULTI ? "/multi *"
-                                               : "/multi/old *",
-                     reach);
+  if (mode == Comm::MULTI) return fmt::format("comm_modify cutoff/multi * {}", reach);
+  return fmt::format("comm_modify{} cutoff {}", mode == Comm::SINGLE ? "" : " mode single", reach);
 }
 
 }    // namespace LAMMPS_NS
