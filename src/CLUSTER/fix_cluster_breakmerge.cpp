@@ -54,7 +54,7 @@ FixClusterBreakMerge::FixClusterBreakMerge(LAMMPS *lmp, int narg, char **arg) :
   use_hash_map(atom, domain);    // newborns find room and partners through it
 
   columns.count = &table.add<int>(ClusterTable::CARRIED);
-  columns.seen = &table.add<tagint>(ClusterTable::CARRIED);
+  columns.seen = &table.add<tagint>(ClusterTable::KEPT);    // IDs may be given anew after a restart, too
   columns.shown = shown = &table.add_shown(ClusterColumns::NCOLUMNS);
   if (settings.event.test == EventSettings::CONTACT_ENDED)
     columns.partners = &table.add_lists<tagint>(ClusterTable::KEPT);

@@ -15,7 +15,7 @@
 
 using namespace LAMMPS_NS;
 
-static constexpr int64_t LAYOUT = int64_t(2) << 32;    // of the restart data; version 0.1 wrote no mark
+static constexpr int64_t LAYOUT = int64_t(3) << 32;    // of the restart data; version 0.1 wrote no mark
 
 /* ----------------------------------------------------------------------
    clusters, particles, breakups, merges, fragments born, births deferred or shifted,

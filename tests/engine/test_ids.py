@@ -70,6 +70,61 @@ def test_new_ids_are_no_ended_contacts(tmp_path, between, np_):
     assert "atoms have other IDs than in the last run" in r.output
 
 
+AGAIN = "read_restart half.restart\ncomm_modify vel yes cutoff 5.7e-3\nneighbor 0.5e-3 bin\n"
+ONE_GOES = "group one id 1\ndelete_atoms group one compress "
+
+
+def parts_of_touching(goes: str = "") -> tuple[str, str]:
+    """The first run with its restart file, and the fixes to go on with."""
+    script = touching(goes)
+    first = script.rsplit("run 3\n", 1)[0] + "write_restart half.restart\n"
+    return first, script[script.index("fix move") : script.index("run 3")]
+
+
+@pytest.mark.parametrize("np_", (1, 2, 4))
+@pytest.mark.parametrize(
+    "case", ["reset_atoms, then the fixes", "the fixes, then reset_atoms", "the fixes, then delete_atoms"]
+)
+def test_new_ids_after_a_restart_are_no_ended_contacts(tmp_path, case, np_):
+    """The file holds contacts by the IDs of its time: they have not ended where IDs are given anew before the first run."""
+    deletes = "delete_atoms" in case
+    first, fixes = parts_of_touching("" if deletes else ONE_GOES + "no\n")
+    run(tmp_path, first)
+    anew = ONE_GOES + "yes\n" if deletes else "reset_atoms id sort yes\n"
+    in_order = anew + fixes if case.endswith("fixes") else fixes + anew
+    r = run(tmp_path, AGAIN + pair() + in_order + "run 3\n", np_)
+    assert r.table()[-1, 1] == 4 and r.table()[-1, 3] == 0  # clusters, breakups
+    # at reset_atoms LAMMPS drops what a file holds for fixes that are not there yet: nothing is remembered, nothing to tell
+    assert ("atoms have other IDs than in the last run" in r.output) == case.startswith("the fixes")
+
+
+@pytest.mark.parametrize("np_", (1, 2))
+def test_the_same_ids_after_a_restart_are_no_new_ones(tmp_path, np_):
+    """The pair that parts after the restart has ended its contact: what the file holds is still known."""
+    first, fixes = parts_of_touching()
+    run(tmp_path, first)
+    r = run(tmp_path, AGAIN + pair() + fixes + "set atom 3 x 0.005\nrun 3\n", np_)
+    assert "other IDs" not in r.output
+    assert r.table()[-1, 3] > 0
+
+
+@pytest.mark.parametrize("np_", (1, 2))
+def test_ids_start_over_where_a_restart_is_given_new_ones(tmp_path, np_):
+    """The same remedy after a restart: the file's highest ID counts no more. 8 clusters, IDs 5 to 8 left, which become 1 to 4."""
+    size = f"fix size all cluster/breakmerge 1 1e-4 2000 drag drag K {k_for(100.5)!r} terms st merge no plane xz\n"
+    fixes = (
+        "fix move all nve\nfix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 2 law stokes\n"
+        + size
+        + "timestep 1e-12\n"
+    )
+    rows = clusters((400, (0.01, 0.02), (0, 0)), (400, (0.03, 0.02), (0, 0)))
+    first = "run 1\ngroup first id 1:4\ndelete_atoms group first compress no\nwrite_restart half.restart\n"
+    run(tmp_path, head() + rows + pair() + fixes + first)
+    again = AGAIN + pair() + fixes
+    again += f"reset_atoms id sort yes\nset atom 1 diameter {diameter(400)!r} density 1000\nrun 1\n"
+    assert list(run(tmp_path, again + DUMP, np_).dump()["id"]) == list(range(1, 8))  # 4 and 3 more, not from 9 on
+
+
 def test_a_contact_that_ends_still_counts_after_new_ids(tmp_path):
     between = "reset_atoms id sort yes\nrun 2\nset atom 2 x 0.005\n"
     r = run(tmp_path, touching("group one id 1\ndelete_atoms group one compress no\n" + between))

@@ -124,6 +124,45 @@ def test_heat_and_charge_of_a_crowd_stay(tmp_path, np_):
     assert table[:, -1] == pytest.approx(table[0, -1], rel=1e-13)
 
 
+@pytest.mark.parametrize("np_", RANKS)
+def test_sums_and_labels_go_through_a_restart(tmp_path, np_):
+    """Halfway to a file and on, on any ranks: heat, charge and a divided column stay, labels are those of the first ancestors."""
+    columns = (
+        "fix own all property/atom temperature heatflow d_split i_label\nvariable t atom 300+50*sin(7919*x)\n"
+        "variable c atom 1e-6*(1+0.5*sin(7919*x))\nvariable label atom 7*id\n"
+    )
+    values = "set group all temperature v_t\nset group all charge v_c\nset group all d_split v_c\nset group all i_label v_label\n"
+    kept = "fix first all store/state 0 id\n"
+    sums = (
+        "compute t all property/atom temperature d_split q i_label\nvariable heat atom mass*c_t[1]\n"
+        "variable wrong atom abs(c_t[4]-7*f_first)\ncompute sum all reduce sum v_heat c_t[2] c_t[3] v_wrong\n"
+    )
+    rows = "".join(f"variable s{k} equal c_sum[{k}]\n" for k in (1, 2, 3, 4))
+    table = (
+        "fix table all ave/time 50 1 50 f_size[1] f_size[3] f_size[4] v_s1 v_s2 v_s3 v_s4 mode scalar file out.txt"
+        ' format " %.17g"\n'
+    )
+    script = crowd("hybrid sphere charge", columns + values + kept, "variable each atom q\n", np_)
+    start, fixes = (
+        script[: script.index("pair_style")],
+        script[script.index("fix move") : script.index("variable each")],
+    )
+    fixes = fixes.replace("merge 0.2", "merge 0.2 carry d_split split")
+    motion = script[script.index("variable u") : script.index("fix move")]
+    run(tmp_path, start + pair() + motion + fixes + sums + rows + table + "run 300\nwrite_restart half.restart\n")
+    before = np.loadtxt(tmp_path / "out.txt")
+    again = (
+        "read_restart half.restart\ncomm_modify vel yes cutoff 5.7e-3\nneighbor 0.5e-3 bin\n"
+        + columns.splitlines()[0]
+        + f"\n{kept}{pair()}{fixes}{sums}{rows}{table}run 300\n"
+    )
+    after = run(tmp_path, again, np_).table()
+    assert after[-1, 2] > before[-1, 2] > 100 and after[-1, 3] > before[-1, 3] > 0  # breakups, merges
+    for column in (4, 5, 6):
+        assert after[:, column] == pytest.approx(before[0, column], rel=1e-13)
+    assert np.all(before[:, 7] == 0) and np.all(after[:, 7] == 0)
+
+
 @pytest.mark.parametrize(
     "carry, words",
     [
