@@ -39,3 +39,11 @@ def test_it_goes_on(tmp_path, np_):
     assert np.array_equal(gas["id"], before["id"])
     for column in ("f_drag[1]", "f_drag[3]"):
         assert np.array_equal(gas[column], before[column])
+
+
+@pytest.mark.parametrize("test", ["always", "contact"])
+def test_another_test_leaves_the_contacts_of_the_file(tmp_path, test):
+    """Clusters and totals go on, whoever is tested from here on."""
+    table = run(tmp_path, SCRIPT.replace("test end", f"test {test}")).table()
+    assert table[0, :7].tolist() == [1500, 41, 16000, 1, 1, 3, 0]
+    assert table[-1, 2] == 16000
