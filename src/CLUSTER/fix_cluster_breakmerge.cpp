@@ -33,7 +33,8 @@ FixClusterBreakMerge::FixClusterBreakMerge(LAMMPS *lmp, int narg, char **arg) :
     largest(lmp, settings.kinds, groupbit), tags(lmp),
     arrivals(lmp, settings.kinds, columns, tags, census, groupbit),
     check(lmp, settings, columns, pairs, census, halo, groupbit),
-    apply(lmp, settings.kinds, columns, tags, check.carried()), output{}, output_step(-1), resumed_from_0_1(false)
+    apply(lmp, settings.kinds, columns, tags, check.carried()), output{}, output_step(-1), resumed_from_0_1(false),
+    resumed_from_other_test(false)
 {
   nevery = settings.event.every;
   force_reneighbor = 1;

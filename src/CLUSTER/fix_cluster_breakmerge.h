@@ -73,7 +73,7 @@ class FixClusterBreakMerge : public ClusterFix, public ClusterDEM::KnowsClusterK
   void leaving(int i) override;
   void arrived(int i) override;
   bool unpack_earlier(int, const double *, int) override;
-  bool resumed_from_0_1;
+  bool resumed_from_0_1, resumed_from_other_test;
 };
 
 }    // namespace LAMMPS_NS

@@ -15,7 +15,9 @@
 
 using namespace LAMMPS_NS;
 
-static constexpr int64_t LAYOUT = int64_t(3) << 32;    // of the restart data; version 0.1 wrote no mark
+// Of the restart data: the layout, and above the number of totals the test by which clusters were looked at. Version 0.1 wrote no mark.
+static constexpr int64_t LAYOUT = int64_t(3) << 32;
+static constexpr int64_t TEST = int64_t(1) << 16;
 
 /* ----------------------------------------------------------------------
    clusters, particles, breakups, merges, fragments born, births deferred or shifted,
@@ -65,7 +67,7 @@ double FixClusterBreakMerge::memory_usage()
 void FixClusterBreakMerge::write_restart(FILE *fp)
 {
   double state[Census::NTOTALS + 2];
-  state[0] = ubuf(LAYOUT + Census::NTOTALS).d;
+  state[0] = ubuf(LAYOUT + settings.event.test * TEST + Census::NTOTALS).d;
   MPI_Reduce(census.totals().data(), state + 1, Census::NTOTALS, MPI_DOUBLE, MPI_SUM, 0, world);
   state[Census::NTOTALS + 1] = ubuf(tags.highest_used()).d;
   if (comm->me) return;
@@ -79,9 +81,11 @@ void FixClusterBreakMerge::restart(char *buf)
   const auto *state = (const double *) buf;
   const int64_t marked = ubuf(state[0]).i;
   resumed_from_0_1 = marked == Census::TOTALS_OF_0_1;
-  const int64_t n = resumed_from_0_1 ? marked : marked - LAYOUT;
-  if (n != Census::NTOTALS && !resumed_from_0_1)
+  const int64_t n = resumed_from_0_1 ? marked : (marked - LAYOUT) % TEST;
+  const bool known = resumed_from_0_1 || (marked >= LAYOUT && marked - LAYOUT < 3 * TEST && n == Census::NTOTALS);
+  if (!known)
     error->all(FLERR, "Fix {} {}: the restart file was written by another version of this fix", style, id);
+  resumed_from_other_test = !resumed_from_0_1 && (marked - LAYOUT) / TEST != settings.event.test;
   Census::Totals totals = {};
   std::copy(state + 1, state + 1 + n, totals.begin());
   if (comm->me == 0) census.resume(totals);
@@ -89,11 +93,16 @@ void FixClusterBreakMerge::restart(char *buf)
 }
 
 /* ----------------------------------------------------------------------
-   version 0.1 wrote the IDs of partners without their number
+   Version 0.1 wrote the IDs of partners without their number. What a file of another test remembers of contacts is of no use:
+   the ID of the atom alone is taken, which stands first.
 ------------------------------------------------------------------------- */
 
 bool FixClusterBreakMerge::unpack_earlier(int i, const double *from, int n)
 {
+  if (resumed_from_other_test) {
+    memcpy(&(*columns.seen)[i], from, sizeof(tagint));
+    return true;
+  }
   if (!resumed_from_0_1) return false;
   if (!columns.partners) return true;    // the file's test was another one
   for (int k = 0; k < n; k++) (*columns.partners)[i].push_back((tagint) ubuf(from[k]).i);

@@ -69,3 +69,21 @@ def test_contacts_of_every_rank_fit_into_the_file(tmp_path):
     again = "processors 2 1 1\n" + scenes.again("half.restart", **words)
     continued = run(tmp_path, again + "run 40\n", 2)
     assert continued.table()[-1, scenes.BREAKUPS] == 0
+
+
+TESTS = ("always", "contact", "end")
+
+
+@pytest.mark.parametrize("np_", (1, 2))
+@pytest.mark.parametrize("read", TESTS)
+@pytest.mark.parametrize("written", TESTS)
+def test_a_file_of_another_test_is_read(tmp_path, written, read, np_):
+    """What it remembers of contacts is left; totals, particles and IDs go on, and with the same test all does."""
+    run(tmp_path, scenes.busy(steps=100, count=60, options=f"test {written}") + "write_restart half.restart\n", np_)
+    before = run(tmp_path, scenes.again("half.restart", options=f"test {written}") + "run 0\n", np_).table()[-1]
+    r = run(
+        tmp_path, scenes.again("half.restart", options=f"test {read}") + "run 0\n" + scenes.final() + "run 50\n", np_
+    )
+    assert np.array_equal(r.table()[0, 1:13], before[1:13])
+    assert r.table()[-1, scenes.PARTICLES] == 60 * 400
+    assert "atoms have other IDs" not in r.output

@@ -162,7 +162,7 @@ def test_restart_file_of_another_layout_is_refused(tmp_path):
     run(tmp_path, scenes.busy(steps=10, count=50) + "write_restart end.restart\n")
     data = (tmp_path / "end.restart").read_bytes()
     count = 6 + len(NAMES) + FLOW + ENERGIES
-    ours = struct.pack("=iq", 8 * (count + 2), (2 << 32) + count)  # of layout 2
+    ours = struct.pack("=iq", 8 * (count + 2), (3 << 32) + count)  # of layout 3, test always
     assert data.count(ours) == 1
     (tmp_path / "other.restart").write_bytes(data.replace(ours, struct.pack("=id", 8 * (count + 2), 3.0)))
     result = run(tmp_path, scenes.again("other.restart") + "run 1\n", check=False)
