@@ -48,6 +48,20 @@ void Arrivals::check_all() const
 }
 
 /* ----------------------------------------------------------------------
+   fix pour draws diameters from a range unless it is given the few that there may be
+------------------------------------------------------------------------- */
+
+std::string Arrivals::how_to_pour(int i) const
+{
+  for (const Fix *other : find_fixes(lmp, "^pour"))
+    return fmt::format(". Fix {} {} pours clusters of whole numbers of particles with 'diam one D' or 'diam poly "
+                       "N D1 P1 ...', D = {:.10g} n^(1/3) for n particles, and 'dens RHO RHO', RHO = {:.10g}",
+                       other->style, other->id, kinds.geometry(atom->type[i]).diameter(1),
+                       kinds.geometry(atom->type[i]).density());
+  return "";
+}
+
+/* ----------------------------------------------------------------------
    what a cluster of the nearest whole number would be, against what it is
 ------------------------------------------------------------------------- */
 
@@ -73,10 +87,10 @@ int Arrivals::whole_number(int i) const
     error->one(
         FLERR,
         "{}: cluster {} {}: {} particles at voidage {} need diameter {:.10g} and density {:.10g}, but it has "
-        "diameter {:.10g} and density {:.10g}, a voidage of {:.4g} for particles of density {:.6g}",
+        "diameter {:.10g} and density {:.10g}, a voidage of {:.4g} for particles of density {:.6g}{}",
         me, atom->tag[i], fault, nearest, particles.voidage, particles.diameter(nearest), particles.density(),
         found_d, sphere_density(atom->rmass[i], found_d),
-        1.0 - sphere_density(atom->rmass[i], found_d) / particles.rho_p, particles.rho_p);
+        1.0 - sphere_density(atom->rmass[i], found_d) / particles.rho_p, particles.rho_p, how_to_pour(i));
   }
   if (n.n > kinds.limits.hi)
     error->one(FLERR,

@@ -53,6 +53,7 @@ class Arrivals : protected EnginePointers {
   bool start_counted;    // what is found from now on has come in
 
   int whole_number(int i) const;
+  std::string how_to_pour(int i) const;
   bool renumbered() const;
   void forget_contacts();
   void number_by_place(const std::vector<int> &mine, Halo &);

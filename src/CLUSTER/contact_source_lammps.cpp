@@ -95,21 +95,22 @@ std::string ContactSource::short_cutoff(const std::string &fix, const LargestDia
       if (!touch || cutoff >= reach * (1.0 - 1.0e-12) || reach <= longest) continue;
       longest = reach;
       auto whose = [&](int type) {
-        return fmt::format("{} {}", largest.of(type),
+        return fmt::format("{} {}", rounded_up(largest.of(type)),
                            largest.of(type) > largest.outside(type) ? "that the limits allow"
                                                                     : "outside of the group");
       };
       const std::string touching = d_a == d_b ? "the largest cluster diameter " + whose(a)
                                               : fmt::format("{}, where the largest touch, of diameters {} and {}",
-                                                            0.5 * (d_a + d_b), whose(a), whose(b));
-      const std::string bonds = bond > 0.0 ? fmt::format(" and the {} beyond it to which cohesion holds two", bond)
-                                           : "";
+                                                            rounded_up(0.5 * (d_a + d_b)), whose(a), whose(b));
+      const std::string bonds =
+          bond > 0.0 ? fmt::format(" and the {:.4g} beyond it to which cohesion holds two", bond) : "";
       fault = fmt::format(
-          "{}: the pair cutoff of types {} and {} is {}, below {}{}, so that they would overlap without a force: "
+          "{}: the pair cutoff of types {} and {} is {:.6g}, below {}{}, so that they would overlap without a "
+          "force: "
           "add "
           "'cutoff {}' to pair_coeff of pair style granular or to pair_style gran/cluster, or for other gran/* "
           "use pair_style hybrid/overlay with 'zero {}'",
-          fix, a, b, cutoff, touching, bonds, reach * 1.0001, reach * 1.0001);
+          fix, a, b, cutoff, touching, bonds, rounded_up(reach), rounded_up(reach));
     }
   return fault;
 }

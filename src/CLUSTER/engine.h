@@ -17,6 +17,7 @@
 #include "domain.h"
 #include "fix.h"
 #include "force.h"
+#include "model/rounded_up.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "pair.h"
@@ -168,8 +169,9 @@ inline std::string ghosts_of_a_type(LAMMPS *lmp, int type)
 inline std::string ask_for_ghosts(LAMMPS *lmp, double reach)
 {
   const int mode = lmp->comm->mode;
-  if (mode == Comm::MULTI) return fmt::format("comm_modify cutoff/multi * {}", reach);
-  return fmt::format("comm_modify{} cutoff {}", mode == Comm::SINGLE ? "" : " mode single", reach);
+  if (mode == Comm::MULTI) return fmt::format("comm_modify cutoff/multi * {}", ClusterDEM::rounded_up(reach));
+  return fmt::format("comm_modify{} cutoff {}", mode == Comm::SINGLE ? "" : " mode single",
+                     ClusterDEM::rounded_up(reach));
 }
 
 }    // namespace LAMMPS_NS

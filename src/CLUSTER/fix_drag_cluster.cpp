@@ -118,10 +118,11 @@ void FixDragCluster::post_force(int)
                "the time step",
                style, id, update->ntimestep);
   if (!exponential && update->dt > 2.0 * shortest_tau)
-    error->one(FLERR,
-               "Fix {} {}: the time step {} is above twice the relaxation time {} of a cluster at step {}, "
-               "where explicit drag grows without bounds: use a shorter time step or 'integrator exponential'",
-               style, id, update->dt, shortest_tau, update->ntimestep);
+    error->one(
+        FLERR,
+        "Fix {} {}: the time step {:.6g} is above twice the relaxation time {:.4g} of a cluster at step {}, "
+        "where explicit drag grows without bounds: use a shorter time step or 'integrator exponential'",
+        style, id, update->dt, shortest_tau, update->ntimestep);
 }
 
 /* ---------------------------------------------------------------------- */

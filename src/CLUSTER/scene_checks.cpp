@@ -90,14 +90,14 @@ void SceneChecks::check_room(Requirements &all) const
   const double largest = settings.kinds.largest_diameter();
   const double claim = settings.event.claim, spacing = settings.event.spacing;
   if (claim < largest)
-    all.unmet(fmt::format("{}: claim {} [length] is below the largest cluster diameter {}: use a larger claim "
+    all.unmet(fmt::format("{}: claim {:.6g} [length] is below the largest cluster diameter {}: use a larger claim "
                           "or a lower upper limit",
-                          me, claim, largest));
+                          me, claim, rounded_up(largest)));
   const double halves = room_of_halves(largest, spacing);
   if (settings.event.breaking && claim < halves)
-    all.unmet(fmt::format("{}: claim {} [length] is below {}, the room that two halves of the largest cluster "
+    all.unmet(fmt::format("{}: claim {:.6g} [length] is below {}, the room that two halves of the largest cluster "
                           "need at spacing {}: the largest could never break",
-                          me, claim, halves, spacing));
+                          me, claim, rounded_up(halves), spacing));
   const std::string fault = periodic_box_too_short();
   if (!fault.empty()) all.unmet(fault);
 }
@@ -118,21 +118,22 @@ void SceneChecks::check_ghosts(Requirements &all, const LargestDiameters &larges
       const double have = ghost_reach(lmp, type, radius);
       if (have >= reach * (1.0 - 1.0e-12) || reach <= farthest) return;
       farthest = reach;
-      fault = fmt::format("{}: the ghost cutoff{} {} is below {}, {}", me, ghosts_of_a_type(lmp, type), have,
-                          reach, why);
+      fault = fmt::format("{}: the ghost cutoff{} {:.6g} is below {}, {}", me, ghosts_of_a_type(lmp, type), have,
+                          rounded_up(reach), why);
     };
     if (largest.in_group(type) || anyone)
-      need(2.0 * claim + skin, 0.0, fmt::format("twice the claim {} plus the skin", claim));
+      need(2.0 * claim + skin, 0.0, fmt::format("twice the claim {:.6g} plus the skin", claim));
     const double radius = 0.5 * largest.outside(type);
     if (radius > 0.0)
       need(claim + radius + skin, radius,
-           fmt::format("the claim {} plus the largest radius {} of atoms of type {} outside of the group and the "
-                       "skin, so that a "
-                       "rank would place clusters into what it does not see",
-                       claim, radius, type));
+           fmt::format(
+               "the claim {:.6g} plus the largest radius {:.6g} of atoms of type {} outside of the group and the "
+               "skin, so that a "
+               "rank would place clusters into what it does not see",
+               claim, radius, type));
   }
   if (!fault.empty())
-    all.unmet(fmt::format("{}: use '{}' or a smaller claim", fault, ask_for_ghosts(lmp, farthest * 1.0001)));
+    all.unmet(fmt::format("{}: use '{}' or a smaller claim", fault, ask_for_ghosts(lmp, farthest)));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -142,7 +143,7 @@ std::string SceneChecks::periodic_box_too_short() const
   for (int axis = 0; axis < 3; axis++)
     if (domain->periodicity[axis] && !(settings.event.planar && axis == 1) &&
         domain->prd[axis] < 4.0 * settings.event.claim)
-      return fmt::format("{}: the periodic box is {} long along {}, below four times the claim {}: an "
+      return fmt::format("{}: the periodic box is {:.6g} long along {}, below four times the claim {:.6g}: an "
                          "event would meet its own image",
                          me, domain->prd[axis], "xyz"[axis], settings.event.claim);
   return "";
@@ -157,7 +158,7 @@ void SceneChecks::check_lattice(Requirements &all) const
       ClusterDEM::Lattice::sites_within(settings.event.planar, settings.event.claim / finest + 1.0);
   if (sites > MOST_SITES)
     all.unmet(fmt::format(
-        "{}: the claim {} [length] holds {:.3g} sites of a lattice for fragments of {} particles, more than "
+        "{}: the claim {:.6g} [length] holds {:.3g} sites of a lattice for fragments of {} particles, more than "
         "{:.3g}: raise the lower limit or the spacing, or use a smaller claim",
         me, settings.event.claim, sites, settings.kinds.limits.lo, MOST_SITES));
 }
@@ -171,7 +172,7 @@ void SceneChecks::check_part_of_box() const
     const double part = domain->subhi[axis] - domain->sublo[axis];
     if (part < claim && part < domain->prd[axis] * (1.0 - 1.0e-12))
       error->one(FLERR,
-                 "{}: a rank's part of the box is {} long along {}, below the claim {}: use "
+                 "{}: a rank's part of the box is {:.6g} long along {}, below the claim {:.6g}: use "
                  "fewer ranks or a smaller claim",
                  me, part, "xyz"[axis], claim);
   }

@@ -294,7 +294,8 @@ inline std::string ghosts_of_a_type(LAMMPS *, int)
 }
 inline std::string ask_for_ghosts(LAMMPS *lmp, double reach)
 {
-  return fmt::format("communicate single vel yes cutoff {}", 2.0 * reach - lmp->neighbor->skin);
+  return fmt::format("communicate single vel yes cutoff {}",
+                     ClusterDEM::rounded_up(2.0 * reach - lmp->neighbor->skin));
 }
 
 }    // namespace LAMMPS_NS

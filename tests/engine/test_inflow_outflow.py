@@ -1,5 +1,7 @@
 """Clusters that other commands let in and take out: the particles' balance, the IDs, the order of fixes."""
 
+import re
+
 import numpy as np
 import pytest
 from lammps_run import M_P, clusters, diameter, head, pair, run, write
@@ -106,11 +108,9 @@ def test_ids_grow_whatever_the_feed_says(tmp_path):
     check_balance(r, began=10)
 
 
-@pytest.mark.parametrize("np_", [1, 2])
-def test_poured(tmp_path, np_):
-    """Fix pour brings a distribution of diameters by itself, in lumps; three-dimensional, on a floor."""
-    d = [diameter(n) for n in SIZES]
-    script = (
+def hopper(diameters: str) -> str:
+    """Clusters poured into a box of three dimensions, onto a floor."""
+    return (
         "units si\natom_style sphere\natom_modify map hash sort 0 0\nboundary p p f\ncomm_modify vel yes cutoff 5.7e-3\n"
         "neighbor 0.5e-3 bin\nregion box block 0 0.011 0 0.011 0 0.016\ncreate_box 1 box\n"
         + pair()
@@ -119,15 +119,30 @@ def test_poured(tmp_path, np_):
         "zplane 0 NULL\nfix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 1\n"
         "fix size all cluster/breakmerge 5 1e-4 2000 drag drag K 0.02 merge 0.1 plane none\n"
         "region hopper block 0 0.011 0 0.011 0.010 0.015\n"
-        f"fix feed all pour 60 1 5 region hopper vol 0.1 100 diam poly 2 {d[0]!r} 0.5 {d[1]!r} 0.5 dens 1000 1000 vel 0 0 0 0 -1\n"
-        + TABLE
-        + "run 1200\n"
-        + END
+        f"fix feed all pour 60 1 5 region hopper vol 0.1 100 {diameters} vel 0 0 0 0 -1\n" + TABLE + "run 1200\n" + END
     )
-    r = run(tmp_path, script, np_)
+
+
+@pytest.mark.parametrize("np_", [1, 2])
+def test_poured(tmp_path, np_):
+    """Fix pour brings a distribution of diameters by itself, in lumps; three-dimensional, on a floor."""
+    d = [diameter(n) for n in SIZES]
+    r = run(tmp_path, hopper(f"diam poly 2 {d[0]!r} 0.5 {d[1]!r} 0.5 dens 1000 1000"), np_)
     last = r.table()[-1]
     assert last[CLUSTERS_FED] > 20 and last[3] > 0 and last[LEFT] == 0
     check_balance(r, began=0)
+
+
+def test_a_pour_of_a_range_is_told_the_diameters_that_there_are(tmp_path):
+    """D = d_p (n / (1 - voidage))^(1/3), density rho_p (1 - voidage): the same as diameter() and 1000 kg/m^3 here."""
+    r = run(tmp_path, hopper("diam range 0.8e-3 1.1e-3 dens 1000 1000"), check=False)
+    said = " ".join(r.output.split())
+    assert r.code != 0 and "which is" in said and "not a whole number" in said
+    match = re.search(
+        r"'diam poly N D1 P1 ...', D = (\S+) n\^\(1/3\) for n particles, and 'dens RHO RHO', RHO = (\S+)", said
+    )
+    assert match and [float(x) for x in match.groups()] == pytest.approx([diameter(1), 1000], rel=1e-9)
+    assert "Fix pour feed pours" in said
 
 
 def test_an_open_side_and_delete_atoms_count_as_left(tmp_path):
