@@ -202,17 +202,11 @@ Vec3 FixDragCluster::force_on(int i) const
   return to_vec3((*shown)[i] + DRAG);
 }
 
-/* ----------------------------------------------------------------------
-   version 0.1 wrote the draw number alone
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 bool FixDragCluster::unpack_earlier(int i, const double *from, int n)
 {
-  if (n != 1) return false;
-  int64_t draw;
-  memcpy(&draw, from, sizeof(draw));
-  gas.gusts().resume(i, static_cast<int>(draw));
-  return true;
+  return gas.gusts().resume(i, from, n);
 }
 
 /* ----------------------------------------------------------------------

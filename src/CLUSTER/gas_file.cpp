@@ -15,7 +15,8 @@ using namespace LAMMPS_NS;
 
 const char *GasFile::name(int quantity)
 {
-  static const char *names[QUANTITIES] = {"velocity", "fluctuation", "density", "viscosity"};
+  static const char *names[QUANTITIES] = {"velocity",  "fluctuation", "density",
+                                          "viscosity", "period",      "eddy_size"};
   return names[quantity];
 }
 

@@ -19,7 +19,7 @@ namespace LAMMPS_NS {
 
 class GasFile {
  public:
-  enum Quantity { VELOCITY, FLUCTUATION, DENSITY, VISCOSITY, QUANTITIES };
+  enum Quantity { VELOCITY, FLUCTUATION, DENSITY, VISCOSITY, PERIOD, EDDY_SIZE, QUANTITIES };
   static const char *name(int quantity);
   static int components(int quantity) { return quantity < DENSITY ? 3 : 1; }
 

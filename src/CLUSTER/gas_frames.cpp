@@ -135,8 +135,8 @@ std::array<std::vector<int>, 3> GasFrames::held_planes() const
 
 void GasFrames::check_values(const GasFile &file, int quantity, const double *values) const
 {
-  static const char *rules[GasFile::QUANTITIES] = {"finite", "finite and >= 0", "finite and > 0",
-                                                   "finite and > 0"};
+  static const char *rules[GasFile::QUANTITIES] = {"finite",         "finite and >= 0", "finite and > 0",
+                                                   "finite and > 0", "finite and > 0",  "finite and > 0"};
   const auto which = held_planes();
   for (const int z : which[2])
     for (const int y : which[1])

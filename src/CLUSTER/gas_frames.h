@@ -21,7 +21,7 @@ namespace LAMMPS_NS {
 class GasFrames : protected EnginePointers {
  public:
   enum Edge { AS_THE_BOX, PERIODIC, CLAMP };
-  static constexpr int MOST_VALUES = 8;    // of a point: velocity, fluctuation, density, viscosity
+  static constexpr int MOST_VALUES = 10;    // of a point: all quantities of a GasFile
 
   // `fix` is the fix in messages; `word` a file, or a pattern with * for several; `caret` its place in the command
   GasFrames(class LAMMPS *lmp, const std::string &fix, const std::string &word, int caret);

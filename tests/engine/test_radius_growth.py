@@ -54,7 +54,7 @@ def test_small_cutoff_is_refused_with_the_remedy(tmp_path):
     text, _ = row_of_pairs()
     contact = "pair_style granular\npair_coeff * * hooke 10.0 100.0 tangential linear_nohistory 1.0 0.33\n"
     r = run(tmp_path / "granular", head() + text + contact + GROW + "run 1\n", check=False)
-    assert r.code != 0 and "below the largest cluster diameter" in r.output and "'cutoff 0.0015875" in r.output
+    assert r.code != 0 and "below the largest cluster diameter" in r.output and "'cutoff 0.001588'" in r.output
     contact = "pair_style gran/hooke 10.0 8.57 1000.0 500.0 0.33 1\npair_coeff * *\n"
     r = run(tmp_path / "hooke", head() + text + contact + GROW + "run 1\n", check=False)
-    assert r.code != 0 and "hybrid/overlay with 'zero 0.0015875" in r.output
+    assert r.code != 0 and "hybrid/overlay with 'zero 0.001588'" in r.output

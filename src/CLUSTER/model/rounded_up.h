@@ -18,7 +18,7 @@ namespace ClusterDEM {
 // the smallest number of `digits` decimal digits (at most 15) that is not below x > 0
 inline std::string rounded_up(double x, int digits = 4)
 {
-  char text[32];
+  char text[64];
   std::snprintf(text, sizeof text, "%.*e", digits - 1, x);    // d.ddde-XX, rounded to the nearest
   if (std::strtod(text, nullptr) < x) {
     const int exponent = std::atoi(std::strchr(text, 'e') + 1) - (digits - 1);
