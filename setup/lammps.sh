@@ -13,11 +13,13 @@ lammps_options=(
   -DWITH_JPEG=off -DWITH_PNG=off -DWITH_FFMPEG=off -DWITH_GZIP=off -DDOWNLOAD_POTENTIALS=off
 )
 
+lammps_sizes=smallbig    # integers of the engine and the plugin
+
 # How an engine that watches its own memory is compiled, and the plugin with it.
 export CLUSTERDEM_SANITIZERS="-fsanitize=address,undefined,float-cast-overflow -fno-omit-frame-pointer -D_GLIBCXX_ASSERTIONS"
 
-# use_lammps pinned|newest|portable|sanitized: for this machine's processor, or (portable, for packages) for any of
-# its kind, or (sanitized) watched by the address and undefined-behaviour sanitizers
+# use_lammps pinned|newest|bigbig|portable|sanitized: for this machine's processor, with 64-bit IDs (bigbig), or (portable, for
+# packages) for any processor of its kind, or (sanitized) watched by the address and undefined-behaviour sanitizers
 use_lammps() {
   if [[ ${LAMMPS_SOURCE_DIR:-}${LAMMPS_EXE:-} ]]; then
     check_own_lammps
@@ -26,6 +28,7 @@ use_lammps() {
   local suite=trixie tarball=$lammps_tarball options=("${lammps_options[@]}") home
   case $1 in
     newest) suite=sid tarball=$(newest_tarball) ;;
+    bigbig) lammps_sizes=bigbig options+=(-DLAMMPS_SIZES=bigbig) ;;
     portable) options=("${options[@]/-march=native /}") ;;
     sanitized) options=("${options[@]/-O3 -march=native -DNDEBUG/-O1 -g1 $CLUSTERDEM_SANITIZERS}") ;;
   esac

@@ -8,7 +8,7 @@ find_package(MPI REQUIRED COMPONENTS CXX)
 # One source of the fixes for both engines (src/CLUSTER/engine.h); what is about the engine itself is in src/LIGGGHTS.
 file(GLOB liggghts_sources CONFIGURE_DEPENDS src/LIGGGHTS/*.cpp src/CLUSTER/gas_*.cpp src/CLUSTER/vtk_*.cpp)
 foreach(name arrivals breakmerge_settings carried_values census cluster_drag cluster_fix cluster_table cluster_walls contact_source contact_sums event_apply event_check event_plan
-    fix_cluster_breakmerge fix_cluster_breakmerge_output fix_drag_cluster fix_halo held_drag largest_diameters mean_velocity merge_partners newborn_tags
+    fix_cluster_breakmerge fix_cluster_breakmerge_output fix_drag_cluster fix_halo held_drag largest_diameters local_voidage mean_velocity merge_partners newborn_tags
     prescribed_gas requirements scene_checks scene_checks_clusters scene_walls size_check)
   list(APPEND liggghts_sources src/CLUSTER/${name}.cpp)
 endforeach()

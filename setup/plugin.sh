@@ -5,7 +5,7 @@ build_plugin() {
   make_folder "$build"
   local log=$build/build.log arguments
   arguments=(-S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release
-    "-DLAMMPS_SOURCE_DIR=$LAMMPS_SOURCE_DIR" "-DLAMMPS_EXE=$LAMMPS_EXE")
+    "-DLAMMPS_SOURCE_DIR=$LAMMPS_SOURCE_DIR" "-DLAMMPS_EXE=$LAMMPS_EXE" "-DLAMMPS_SIZES=$lammps_sizes")
   # Another engine, compiler or place of this checkout: configure anew.
   local stamp=$build/.configured now="${arguments[*]} ${CXX:-}"
   if [[ ! -e $build/build.ninja || $(cat "$stamp" 2>/dev/null) != "$now" ]]; then

@@ -1,18 +1,18 @@
 # All tests, closed by one line of counts.
 # shellcheck shell=bash
 
-verb_test() { # all tests, or those of pytest's arguments: [--lammps newest] [pytest arguments]
+verb_test() { # all tests, or those of pytest's arguments: [--lammps newest|bigbig] [pytest arguments]
   local engine=pinned arguments=()
   while (($#)); do
     case $1 in
-      --lammps) engine=${2:-}; shift 2 || die "say --lammps newest" ;;
+      --lammps) engine=${2:-}; shift 2 || die "say --lammps newest or bigbig" ;;
       *) arguments+=("$1"); shift ;;
     esac
   done
   set_up "$engine"
   # The report is opened in a real browser, the film is a real film; without these tools those tests skip.
   (install_tools chromium:chromium ffmpeg:ffmpeg patch:patch) || say "going on without them: the tests that need them skip"
-  [[ $engine == newest ]] || (set_up_liggghts) || say "going on without LIGGGHTS: the tests that compare with it skip"
+  [[ $engine != pinned ]] || (set_up_liggghts) || say "going on without LIGGGHTS: the tests that compare with it skip"
   cd "$root"
   export CLUSTERDEM_LMP=$build/bin/lmp CLUSTERDEM_BUILD=$build
   export PATH=$venv/bin:$PATH
@@ -21,7 +21,7 @@ verb_test() { # all tests, or those of pytest's arguments: [--lammps newest] [py
   mkdir "$results"
   # Every runner leaves one file of results; one that leaves none counts as a failure.
   local expected=("$results/pytest.xml")
-  if [[ $engine == newest ]]; then
+  if [[ $engine != pinned ]]; then
     run_pytest "$results/pytest.xml" "${arguments[@]:-tests/engine}"
   elif ((${#arguments[@]})); then
     run_pytest "$results/pytest.xml" "${arguments[@]}"

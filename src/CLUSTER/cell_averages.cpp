@@ -15,8 +15,8 @@
 
 using namespace LAMMPS_NS;
 
-CellAverages::CellAverages(LAMMPS *lmp, Fix *f, const int *ncells) :
-    Pointers(lmp), fix(f), n{ncells[0], ncells[1], ncells[2]}, grid(nullptr)
+CellAverages::CellAverages(LAMMPS *lmp, Fix *f, const int *ncells, int values) :
+    Pointers(lmp), fix(f), n{ncells[0], ncells[1], ncells[2]}, nvalues(values), grid(nullptr)
 {
   reset();
 }
@@ -37,9 +37,9 @@ void CellAverages::reset()
   grid->setup_grid(in[0], in[1], in[2], in[3], in[4], in[5], lo[0], hi[0], lo[1], hi[1], lo[2], hi[2]);
   int n1, n2;
   grid->setup_comm(n1, n2);
-  buf1.resize(static_cast<std::size_t>(n1) * NVALUES + 1);
-  buf2.resize(static_cast<std::size_t>(n2) * NVALUES + 1);
-  std::size_t total = NVALUES;
+  buf1.resize(static_cast<std::size_t>(n1) * nvalues + 1);
+  buf2.resize(static_cast<std::size_t>(n2) * nvalues + 1);
+  std::size_t total = nvalues;
   for (int k = 0; k < 3; k++) total *= hi[k] - lo[k] + 1;
   cells.assign(total, 0.0);
 }
@@ -65,7 +65,7 @@ std::size_t CellAverages::offset(const double *x) const
     index[k] -= lo[k];
   }
   const std::size_t width = hi[0] - lo[0] + 1, depth = hi[1] - lo[1] + 1;
-  return NVALUES * ((index[2] * depth + index[1]) * width + index[0]);
+  return nvalues * ((index[2] * depth + index[1]) * width + index[0]);
 }
 
 void CellAverages::add(const double *x, int value, double amount)
@@ -80,8 +80,8 @@ double CellAverages::total(const double *x, int value) const
 
 void CellAverages::sum()
 {
-  grid->reverse_comm(Grid3d::FIX, fix, 0, NVALUES, sizeof(double), buf1.data(), buf2.data(), MPI_DOUBLE);
-  grid->forward_comm(Grid3d::FIX, fix, 0, NVALUES, sizeof(double), buf1.data(), buf2.data(), MPI_DOUBLE);
+  grid->reverse_comm(Grid3d::FIX, fix, 0, nvalues, sizeof(double), buf1.data(), buf2.data(), MPI_DOUBLE);
+  grid->forward_comm(Grid3d::FIX, fix, 0, nvalues, sizeof(double), buf1.data(), buf2.data(), MPI_DOUBLE);
 }
 
 double CellAverages::cell_volume() const
@@ -99,14 +99,14 @@ double CellAverages::memory_usage() const
 void CellAverages::pack(double *buf, int nlist, const int *list) const
 {
   for (int k = 0; k < nlist; k++)
-    for (int v = 0; v < NVALUES; v++) *buf++ = cells[static_cast<std::size_t>(NVALUES) * list[k] + v];
+    for (int v = 0; v < nvalues; v++) *buf++ = cells[static_cast<std::size_t>(nvalues) * list[k] + v];
 }
 
 void CellAverages::unpack(const double *buf, int nlist, const int *list, bool add_up)
 {
   for (int k = 0; k < nlist; k++)
-    for (int v = 0; v < NVALUES; v++, buf++) {
-      double &cell = cells[static_cast<std::size_t>(NVALUES) * list[k] + v];
+    for (int v = 0; v < nvalues; v++, buf++) {
+      double &cell = cells[static_cast<std::size_t>(nvalues) * list[k] + v];
       cell = (add_up ? cell : 0.0) + *buf;
     }
 }

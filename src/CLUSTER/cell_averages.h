@@ -2,8 +2,8 @@
    Cluster DEM for LAMMPS. Distributed under the GNU General Public License, version 2 or later.
 ------------------------------------------------------------------------- */
 
-// Averages of the clusters in the cells of a regular grid over the box, for the readings of the size
-// law that ask for the mean of a cell. Each rank holds the cells of its own part of the box.
+// Sums over the clusters in the cells of a regular grid over the box, for the readings of the size law that ask for the mean of
+// a cell, and for the voidage of drag laws. Each rank holds the cells of its own part of the box.
 
 #ifndef LMP_CELL_AVERAGES_H
 #define LMP_CELL_AVERAGES_H
@@ -18,11 +18,10 @@ class Grid3d;
 
 class CellAverages : protected Pointers {
  public:
-  enum { MASS, MASS_SPEED, DRAG_POWER, NVALUES };    // the speed with its sign for the reading up vector
-  static constexpr int MOST = 100000000;             // cells in all: 2.4 GB
+  static constexpr int MOST = 100000000;    // cells in all: 0.8 GB for each value
 
-  // fix: the owner, whose grid callbacks end in pack() and unpack()
-  CellAverages(class LAMMPS *lmp, Fix *fix, const int *cells);
+  // fix: the owner, whose grid callbacks end in pack() and unpack(); so many values per cell
+  CellAverages(class LAMMPS *lmp, Fix *fix, const int *cells, int nvalues);
   ~CellAverages() override;
 
   void reset();    // the box or its division among the ranks has changed
@@ -38,7 +37,7 @@ class CellAverages : protected Pointers {
 
  private:
   Fix *fix;
-  int n[3];
+  int n[3], nvalues;
   Grid3d *grid;
   int lo[3], hi[3];    // cells that this rank stores, ghosts included
   std::vector<double> cells, buf1, buf2;

@@ -17,8 +17,9 @@ using namespace ClusterDEM;
 /* ---------------------------------------------------------------------- */
 
 ClusterDrag::ClusterDrag(LAMMPS *lmp) :
-    EnginePointers(lmp), law(std::make_unique<TranCongDrag>(0.8, 1.1)), acts_along{true, true, true},
-    unshielded(0.0), particle_d(0.0), particle_mass(0.0), particle_given(false)
+    EnginePointers(lmp), law(std::make_unique<TranCongDrag>(0.8, 1.1)), name("trancong"), local(lmp),
+    constant_voidage(1.0), pressure(false), acts_along{true, true, true}, unshielded(0.0), particle_d(0.0),
+    particle_mass(0.0), particle_given(false)
 {
 }
 
@@ -26,7 +27,9 @@ ClusterDrag::ClusterDrag(LAMMPS *lmp) :
 
 void ClusterDrag::parse_law(StyleArguments &args)
 {
-  const std::string name = args.word("law NAME");
+  name = args.word("law NAME");
+  local.forget();    // the keyword may be given twice
+  constant_voidage = 1.0;
   std::string known;
   for (const auto &entry : drag_laws()) {
     known += (known.empty() ? "" : " | ") + std::string(entry.name);
@@ -34,10 +37,18 @@ void ClusterDrag::parse_law(StyleArguments &args)
     std::vector<double> values;
     for (const auto &parameter : entry.parameters) {
       const std::string what = fmt::format("law {} {}", name, parameter.name);
-      const std::string rule = fmt::format("a number > {} and <= {}", parameter.lo, parameter.hi);
+      if (parameter.voidage && args.next_is("cells")) {
+        args.word(what);
+        local.parse(args);
+        values.push_back(parameter.hi);
+        continue;
+      }
+      const std::string rule = fmt::format("a number > {} and <= {}{}", parameter.lo, parameter.hi,
+                                           parameter.voidage ? ", or cells nx ny nz" : "");
       const double x = args.number(what, rule);
       if (!(x > parameter.lo && x <= parameter.hi)) args.refuse(what, rule);
       values.push_back(x);
+      if (parameter.voidage) constant_voidage = x;
     }
     law = entry.make(values.data());
     return;
@@ -64,15 +75,25 @@ void ClusterDrag::parse_particle(StyleArguments &args)
   particle_given = true;
 }
 
-void ClusterDrag::tabulate()
+void ClusterDrag::parse_pressure(StyleArguments &args)
 {
-  law = std::make_unique<DragTable>(std::move(law));
+  pressure = args.yes("pressure");
+}
+
+// the table is of one voidage
+void ClusterDrag::settle(bool table_of_law, ClusterTable &table)
+{
+  if (pressure && !dynamic_cast<const VoidageLaw *>(law.get()))
+    error->all(FLERR, "Fix drag/cluster: pressure yes needs a law with a voidage, which law {} has not", name);
+  local.add_columns(table);
+  if (table_of_law && !local.any()) law = std::make_unique<DragTable>(std::move(law));
 }
 
 /* ---------------------------------------------------------------------- */
 
-void ClusterDrag::init(const std::string &me)
+void ClusterDrag::init(const std::string &me, Fix *owner)
 {
+  local.make_cells(owner);
   if (unshielded > 0.0 && !particle_given) find_primary_particle(me);
 }
 

@@ -9,6 +9,7 @@
 
 #include "engine.h"
 
+#include "local_voidage.h"
 #include "model/drag_law.h"
 
 #include <memory>
@@ -25,20 +26,25 @@ class ClusterDrag : protected EnginePointers {
   void parse_plane(StyleArguments &);
   void parse_particle(StyleArguments &);
   void parse_unshielded(StyleArguments &);
-  void tabulate();
-  void init(const std::string &me);
+  void parse_pressure(StyleArguments &);
+  void settle(bool table_of_law, ClusterTable &);    // once all words are read
+  void init(const std::string &me, class Fix *owner);
+  LocalVoidage &voidage() { return local; }
 
   // drag on cluster i is this coefficient times its slip
   double coefficient(int i, const ClusterDEM::Gas &gas, double slip_speed) const
   {
     const double n = unshielded > 0.0 ? atom->rmass[i] / particle_mass : 0.0;
-    return ClusterDEM::cluster_drag_coefficient(*law, gas, 2.0 * atom->radius[i], particle_d, n, unshielded,
-                                                slip_speed);
+    const double eps = voidage_at(i);
+    return pressure_factor(eps) *
+        ClusterDEM::cluster_drag_coefficient(*law, gas, 2.0 * atom->radius[i], particle_d, n, unshielded,
+                                             slip_speed, eps);
   }
-  // that of one primary particle of diameter d_p
-  double particle_coefficient(const ClusterDEM::Gas &gas, double d_p, double slip_speed) const
+  // that of one primary particle of diameter d_p in cluster i
+  double particle_coefficient(int i, const ClusterDEM::Gas &gas, double d_p, double slip_speed) const
   {
-    return ClusterDEM::drag_coefficient(*law, gas, d_p, slip_speed);
+    const double eps = voidage_at(i);
+    return pressure_factor(eps) * ClusterDEM::drag_coefficient(*law, gas, d_p, slip_speed, eps);
   }
   ClusterDEM::Vec3 in_plane(const ClusterDEM::Vec3 &force) const
   {
@@ -47,11 +53,17 @@ class ClusterDrag : protected EnginePointers {
 
  private:
   std::unique_ptr<ClusterDEM::DragLaw> law;
+  std::string name;
+  LocalVoidage local;
+  double constant_voidage;    // 1 if the law has none
+  bool pressure;
   bool acts_along[3];
   double unshielded;
   double particle_d, particle_mass;    // of a primary particle, where `unshielded` needs it
   bool particle_given;
 
+  double voidage_at(int i) const { return local.any() ? local.at(i) : constant_voidage; }
+  double pressure_factor(double eps) const { return pressure ? ClusterDEM::with_pressure_gradient(eps) : 1.0; }
   void find_primary_particle(const std::string &me);
 };
 

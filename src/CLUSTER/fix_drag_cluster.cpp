@@ -18,7 +18,13 @@ using namespace ClusterDEM;
 
 static constexpr int BLOCK = 64;    // clusters whose drag is computed together
 namespace {
-enum Columns { GAS = 0, DRAG = 3, RE = 6, TAU = 7, NCOLUMNS = 8 };    // of the per-atom array
+enum Columns {
+  GAS = 0,
+  DRAG = 3,
+  RE = 6,
+  TAU = 7,
+  VOIDAGE = 8
+};    // of the per-atom array; the last with cells alone
 }
 
 /* ---------------------------------------------------------------------- */
@@ -35,7 +41,6 @@ FixDragCluster::FixDragCluster(LAMMPS *lmp, int narg, char **arg) :
   extvector = -1;
   extlist = extensive;
   peratom_flag = 1;
-  size_peratom_cols = NCOLUMNS;
   peratom_freq = 1;
   time_depend = 1;    // the fluctuation depends on the elapsed time
 
@@ -43,7 +48,9 @@ FixDragCluster::FixDragCluster(LAMMPS *lmp, int narg, char **arg) :
   parse(args);
   if (gas.gusts().of_clusters() && !atom->tag_enable)
     error->all(FLERR, "Fix {} fluctuation own requires atom IDs", style);
-  shown = &table.add_shown(NCOLUMNS);
+  pergrid_flag = drag.voidage().any();    // fix balance tells whoever has a grid
+  size_peratom_cols = drag.voidage().any() ? VOIDAGE + 1 : VOIDAGE;
+  shown = &table.add_shown(size_peratom_cols);
   start_table();
 }
 
@@ -62,6 +69,7 @@ void FixDragCluster::parse(StyleArguments &args)
     else if (keyword == "fluctuation") gas.gusts().parse(args);
     else if (keyword == "law") drag.parse_law(args);
     else if (keyword == "plane") drag.parse_plane(args);
+    else if (keyword == "pressure") drag.parse_pressure(args);
     else if (keyword == "unshielded") drag.parse_unshielded(args);
     else if (keyword == "particle") drag.parse_particle(args);
     else if (keyword == "integrator") exponential = args.choice(keyword, {"explicit", "exponential"}) == 1;
@@ -69,7 +77,7 @@ void FixDragCluster::parse(StyleArguments &args)
     else if (keyword == "refresh") refresh = args.integer("refresh", 1);
     else args.unknown_keyword();
   }
-  if (table_of_law) drag.tabulate();
+  drag.settle(table_of_law, table);
   gas.settle(table, igroup);
   held.hold_for(refresh, table);
   held.act_along(drag.in_plane({1.0, 1.0, 1.0}));
@@ -94,7 +102,7 @@ void FixDragCluster::init()
   const std::string units = foreign_units(lmp, me);
   if (!units.empty()) error->all(FLERR, units);
   gas.init(me);
-  drag.init(me);
+  drag.init(me, this);
 }
 
 void FixDragCluster::setup(int vflag)
@@ -130,6 +138,7 @@ void FixDragCluster::post_force(int)
 DragTotals FixDragCluster::add_drag_anew()
 {
   gas.prepare();
+  drag.voidage().measure();
   held.start();
   shortest_tau = INFINITY;
   DragTotals sum;
@@ -175,7 +184,7 @@ DragTotals FixDragCluster::add_drag(int first, int last)
     const int i = first + m;
     double *row = (*shown)[i];
     if (!(mask[i] & groupbit)) {
-      std::fill(row, row + NCOLUMNS, 0.0);
+      std::fill(row, row + size_peratom_cols, 0.0);
       if (held.any()) held.hold(i, {0.0, 0.0, 0.0}, 0.0);
       continue;
     }
@@ -193,6 +202,7 @@ DragTotals FixDragCluster::add_drag(int first, int last)
     sum.power += dot(force, to_vec3(v[i]));
     row[RE] = reynolds(speed[m], 2.0 * radius[i], seen[m].gas);
     row[TAU] = tau;
+    if (size_peratom_cols > VOIDAGE) row[VOIDAGE] = drag.voidage().at(i);
   }
   return sum;
 }
@@ -207,6 +217,33 @@ Vec3 FixDragCluster::force_on(int i) const
 bool FixDragCluster::unpack_earlier(int i, const double *from, int n)
 {
   return gas.gusts().resume(i, from, n);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixDragCluster::reset_grid()
+{
+  if (drag.voidage().cells()) drag.voidage().cells()->reset();
+}
+
+void FixDragCluster::pack_forward_grid(int, void *buf, int nlist, int *list)
+{
+  drag.voidage().cells()->pack((double *) buf, nlist, list);
+}
+
+void FixDragCluster::unpack_forward_grid(int, void *buf, int nlist, int *list)
+{
+  drag.voidage().cells()->unpack((double *) buf, nlist, list, false);
+}
+
+void FixDragCluster::pack_reverse_grid(int, void *buf, int nlist, int *list)
+{
+  drag.voidage().cells()->pack((double *) buf, nlist, list);
+}
+
+void FixDragCluster::unpack_reverse_grid(int, void *buf, int nlist, int *list)
+{
+  drag.voidage().cells()->unpack((double *) buf, nlist, list, true);
 }
 
 /* ----------------------------------------------------------------------

@@ -28,6 +28,11 @@ class FixDragCluster : public ClusterFix, public HoldsDrag {
   void post_force(int) override;
   double compute_vector(int) override;
   double memory_usage() override;
+  void reset_grid() override;
+  void pack_forward_grid(int, void *, int, int *) override;
+  void unpack_forward_grid(int, void *, int, int *) override;
+  void pack_reverse_grid(int, void *, int, int *) override;
+  void unpack_reverse_grid(int, void *, int, int *) override;
 
   // the rooms that others look into
   PrescribedGas &prescribed_gas() { return gas; }

@@ -12,6 +12,10 @@
 using namespace LAMMPS_NS;
 using namespace ClusterDEM;
 
+namespace {
+enum CellValues { MASS, MASS_SPEED, DRAG_POWER, NVALUES };    // the speed with its sign for the reading up vector
+}
+
 /* ---------------------------------------------------------------------- */
 
 SizeCheck::SizeCheck(LAMMPS *lmp, const BreakMergeSettings &all, const ClusterColumns &c, int group) :
@@ -51,7 +55,7 @@ void SizeCheck::init(const std::string &me)
 
 void SizeCheck::make_cells(Fix *owner)
 {
-  if (settings.cells_given) averages = std::make_unique<CellAverages>(lmp, owner, settings.cells);
+  if (settings.cells_given) averages = std::make_unique<CellAverages>(lmp, owner, settings.cells, NVALUES);
 }
 
 double SizeCheck::drag_force(int i) const
@@ -109,15 +113,14 @@ void SizeCheck::average_cells()
     if (!(atom->mask[i] & groupbit)) continue;
     const double *x = atom->x[i];
     const Vec3 v = to_vec3(atom->v[i]);
-    averages->add(x, CellAverages::MASS, atom->rmass[i]);
+    averages->add(x, MASS, atom->rmass[i]);
     const double speed = v[settings.gravity_axis];
-    averages->add(x, CellAverages::MASS_SPEED,
-                  atom->rmass[i] * (settings.up == UpReading::VECTOR ? speed : std::fabs(speed)));
+    averages->add(x, MASS_SPEED, atom->rmass[i] * (settings.up == UpReading::VECTOR ? speed : std::fabs(speed)));
     if (settings.term_st && settings.nst == NstReading::CELL) {
       const ClusterDrag &law = drag->drag_on_clusters();
       const LocalGas here = drag->prescribed_gas().at(i);
       const Vec3 slip = law.in_plane(here.u - v);
-      averages->add(x, CellAverages::DRAG_POWER, dot(law.coefficient(i, here.gas, norm(slip)) * slip, here.u));
+      averages->add(x, DRAG_POWER, dot(law.coefficient(i, here.gas, norm(slip)) * slip, here.u));
     }
   }
   averages->sum();
@@ -129,14 +132,14 @@ double SizeCheck::gas_power(int i, const ClusterGeometry &particles)
 {
   if (settings.nst == NstReading::CELL) {
     const double *x = atom->x[i];
-    return averages->total(x, CellAverages::DRAG_POWER) / averages->total(x, CellAverages::MASS);
+    return averages->total(x, DRAG_POWER) / averages->total(x, MASS);
   }
   const ClusterDrag &law = drag->drag_on_clusters();
   const LocalGas here = drag->prescribed_gas().at(i);
   const Vec3 slip = law.in_plane(here.u - to_vec3(atom->v[i]));
   const double speed = norm(slip);
   if (settings.nst == NstReading::PARTICLE)
-    return n_st(law.particle_coefficient(here.gas, particles.d_p, speed) * slip, here.u,
+    return n_st(law.particle_coefficient(i, here.gas, particles.d_p, speed) * slip, here.u,
                 particles.particle_mass());
   return n_st(law.coefficient(i, here.gas, speed) * slip, here.u, atom->rmass[i]);
 }
@@ -147,8 +150,8 @@ double SizeCheck::fluidization_power(int i, int kind)
   double speed = std::fabs(atom->v[i][settings.gravity_axis]);
   if (settings.up != UpReading::OWN) {
     const double *x = atom->x[i];
-    const double mass = averages->total(x, CellAverages::MASS);
-    speed = std::fabs(mean_speed(averages->total(x, CellAverages::MASS_SPEED), mass));
+    const double mass = averages->total(x, MASS);
+    speed = std::fabs(mean_speed(averages->total(x, MASS_SPEED), mass));
     if (settings.up == UpReading::SUPERFICIAL)
       speed = superficial_speed(speed, mass, particles.rho_p, averages->cell_volume());
   }

@@ -13,8 +13,8 @@
 
 using namespace LAMMPS_NS;
 
-CellAverages::CellAverages(LAMMPS *lmp, Fix *f, const int *ncells) :
-    Pointers(lmp), fix(f), n{ncells[0], ncells[1], ncells[2]}, grid(nullptr), lo{}, hi{}
+CellAverages::CellAverages(LAMMPS *lmp, Fix *f, const int *ncells, int values) :
+    Pointers(lmp), fix(f), n{ncells[0], ncells[1], ncells[2]}, nvalues(values), grid(nullptr), lo{}, hi{}
 {
   reset();
 }
@@ -23,7 +23,7 @@ CellAverages::~CellAverages() {}
 
 void CellAverages::reset()
 {
-  cells.assign(static_cast<std::size_t>(NVALUES) * n[0] * n[1] * n[2], 0.0);
+  cells.assign(static_cast<std::size_t>(nvalues) * n[0] * n[1] * n[2], 0.0);
 }
 
 void CellAverages::clear()
@@ -36,7 +36,7 @@ std::size_t CellAverages::offset(const double *x) const
   std::size_t cell = 0;
   for (int k = 2; k >= 0; k--)
     cell = cell * n[k] + ClusterDEM::cell_index((x[k] - domain->boxlo[k]) / domain->prd[k], n[k]);
-  return NVALUES * cell;
+  return nvalues * cell;
 }
 
 void CellAverages::add(const double *x, int value, double amount)

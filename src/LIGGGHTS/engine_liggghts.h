@@ -20,6 +20,7 @@
 #include "pointers.h"
 
 #include "format_liggghts.h"
+#include "model/rounded_up.h"
 
 #include <algorithm>
 #include <memory>

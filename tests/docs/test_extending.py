@@ -106,11 +106,13 @@ def test_unit_tests_of_the_examples(extended: Path) -> None:
 
 def test_drag_law(extended: Path, tmp_path: Path) -> None:
     script = head() + clusters((400, (0.02, 0.02), (0.0, 0.0))) + pair()
-    script += "fix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 0.3 law gidaspow 0.5\nrun 0\n" + write("f_drag[7]")
+    script += "fix drag all drag/cluster 1.2 1.53e-5 velocity 0 0 0.3 law beetstra 0.5\nrun 0\n" + write("f_drag[7]")
     row = run(extended, tmp_path, script).dump()
     d = diameter(400)
     reynolds = 0.3 * d / 1.53e-5
-    force = math.pi / 8 * 1.2 * 1.53e-5 * d * (200 + 7 / 3 * reynolds) * 0.3
+    re = reynolds / 2  # of the superficial slip; eps = es = 1/2
+    fast = 0.413 * re / 6 * (2 + 0.75 + 8.4 * re**-0.343) / (1 + 10**1.5 * re**-1.5)
+    force = 3 * math.pi * 1.2 * 1.53e-5 * d * 0.15 * (20 + 0.25 * (1 + 1.5 * math.sqrt(0.5)) + fast)
     assert row["f_drag[7]"][0] == pytest.approx(reynolds, rel=1e-12)
     assert row["fz"][0] == pytest.approx(force, rel=1e-9)  # the table of C_D Re holds 1e-10
 

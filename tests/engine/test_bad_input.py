@@ -20,7 +20,7 @@ DRAG_ERRORS = [
     (f"{DRAG} velocity 0 0 nan", "velocity uz value: nan"),
     (
         f"{DRAG} law newton",
-        "law value: newton (must be trancong | schiller/naumann | stokes | wen/yu | difelice | none)",
+        "law value: newton (must be trancong | schiller/naumann | stokes | wen/yu | gidaspow | difelice | none)",
     ),
     (f"{DRAG} law trancong 1.5 1", "law trancong c value: 1.5 (must be a number > 0 and <= 1)"),
     (f"{DRAG} law trancong 0.8", "missing law trancong dA/dn"),
@@ -35,7 +35,7 @@ DRAG_ERRORS = [
         f"{DRAG} fluctuation 1 0 1 cell 1000000 1000000 1000001 frozen 1",
         "value: 1000001 (must be at most 1e+15 cells in all)",
     ),
-    (f"{DRAG} fluctuation 1 0 1 own 0 1", "fluctuation PERIOD value: 0 (must be frozen or a time > 0)"),
+    (f"{DRAG} fluctuation 1 0 1 own 0 1", "fluctuation PERIOD value: 0 (must be frozen, field or a time > 0)"),
     (f"{DRAG} fluctuation 1 0 1 own frozen -5", "fluctuation SEED value: -5 (must be an integer from 1 to"),
     (f"{DRAG} table maybe", "table value: maybe (must be no | yes)"),
     (f"{DRAG} speed 1", "Unknown fix drag/cluster keyword: speed"),

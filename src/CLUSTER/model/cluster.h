@@ -11,9 +11,13 @@ namespace ClusterDEM {
 
 constexpr double PI = 3.14159265358979323846;
 
+inline double sphere_volume(double diameter)
+{
+  return PI / 6.0 * diameter * diameter * diameter;
+}
 inline double sphere_density(double mass, double diameter)
 {
-  return mass / (PI / 6.0 * diameter * diameter * diameter);
+  return mass / sphere_volume(diameter);
 }
 
 struct ClusterGeometry {

@@ -19,6 +19,16 @@ namespace ClusterDEM {
 struct DragLaw {
   virtual ~DragLaw() = default;
   virtual double cd_re(double re) const = 0;    // drag coefficient times Reynolds number
+  // at another voidage than the law's own, for laws that have one
+  virtual double cd_re(double re, double) const { return cd_re(re); }
+};
+
+// a law of many particles: what holds at any voidage eps, and a voidage
+struct VoidageLaw : DragLaw {
+  const double voidage;
+  explicit VoidageLaw(double eps) : voidage(eps) {}
+  using DragLaw::cd_re;
+  double cd_re(double re) const override { return cd_re(re, voidage); }
 };
 
 // no drag at all
@@ -37,29 +47,42 @@ struct SchillerNaumannDrag : DragLaw {
 };
 
 // Wen & Yu (1966): the single-sphere drag at Re_eps = eps Re, times eps^-3.65 per particle
-// (on the superficial slip eps |u - V|). A constant voidage eps; eps = 1 is one sphere.
-struct WenYuDrag : DragLaw {
-  double voidage;
-  explicit WenYuDrag(double eps) : voidage(eps) {}
-  double cd_re(double re) const override
+// (on the superficial slip eps |u - V|). eps = 1 is one sphere.
+struct WenYuDrag : VoidageLaw {
+  using VoidageLaw::cd_re;
+  using VoidageLaw::VoidageLaw;
+  double cd_re(double re, double eps) const override
   {
-    return SchillerNaumannDrag().cd_re(voidage * re) * std::pow(voidage, -2.65);
+    return SchillerNaumannDrag().cd_re(eps * re) * std::pow(eps, -2.65);
+  }
+};
+
+// Gidaspow (1994): Ergun (1952) in a dense bed, eps < 0.8, Wen & Yu above. From Ergun's pressure drop
+// 150 (1-eps)^2 mu U/(eps^3 d^2) + 1.75 (1-eps) rho U^2/(eps^3 d), U = eps |u - V|, shared among the particles:
+// C_D Re = 200 (1-eps)/eps + 7/3 Re. Discontinuous at eps = 0.8, as published.
+struct GidaspowDrag : VoidageLaw {
+  using VoidageLaw::cd_re;
+  using VoidageLaw::VoidageLaw;
+  double cd_re(double re, double eps) const override
+  {
+    if (eps >= 0.8) return WenYuDrag(eps).cd_re(re);
+    return 200.0 * (1.0 - eps) / eps + 7.0 / 3.0 * re;
   }
 };
 
 // Di Felice (1994): Dalla Valle's C_D = (0.63 + 4.8/sqrt(Re_eps))^2, Re_eps = eps Re, on the
 // superficial slip, times eps^-beta with beta = 3.7 - 0.65 exp(-(1.5 - log10 Re_eps)^2 / 2)
-struct DiFeliceDrag : DragLaw {
-  double voidage;
-  explicit DiFeliceDrag(double eps) : voidage(eps) {}
-  double cd_re(double re) const override
+struct DiFeliceDrag : VoidageLaw {
+  using VoidageLaw::cd_re;
+  using VoidageLaw::VoidageLaw;
+  double cd_re(double re, double eps) const override
   {
-    const double re_eps = voidage * re;
-    if (re_eps <= 0.0) return 4.8 * 4.8 * std::pow(voidage, 1.0 - 3.7);
+    const double re_eps = eps * re;
+    if (re_eps <= 0.0) return 4.8 * 4.8 * std::pow(eps, 1.0 - 3.7);
     const double root = 0.63 * std::sqrt(re_eps) + 4.8;    // C_D Re_eps = root^2
     const double x = 1.5 - std::log10(re_eps);
     const double beta = 3.7 - 0.65 * std::exp(-0.5 * x * x);
-    return root * root * std::pow(voidage, 1.0 - beta);
+    return root * root * std::pow(eps, 1.0 - beta);
   }
 };
 
@@ -84,7 +107,8 @@ struct TranCongDrag : DragLaw {
 // one line per law: its name, its parameters with the range each must lie in, how to make it
 struct DragParameter {
   const char *name;
-  double lo, hi;    // lo < value <= hi
+  double lo, hi;           // lo < value <= hi
+  bool voidage = false;    // may be that of cells, too
 };
 struct DragLawEntry {
   const char *name;
@@ -100,8 +124,13 @@ inline const std::vector<DragLawEntry> &drag_laws()
        [](const double *p) { return std::make_unique<TranCongDrag>(p[0], p[1]); }},
       {"schiller/naumann", {}, [](const double *) { return std::make_unique<SchillerNaumannDrag>(); }},
       {"stokes", {}, [](const double *) { return std::make_unique<StokesDrag>(); }},
-      {"wen/yu", {{"voidage", 0.0, 1.0}}, [](const double *p) { return std::make_unique<WenYuDrag>(p[0]); }},
-      {"difelice", {{"voidage", 0.0, 1.0}}, [](const double *p) { return std::make_unique<DiFeliceDrag>(p[0]); }},
+      {"wen/yu", {{"voidage", 0.0, 1.0, true}}, [](const double *p) { return std::make_unique<WenYuDrag>(p[0]); }},
+      {"gidaspow",
+       {{"voidage", 0.0, 1.0, true}},
+       [](const double *p) { return std::make_unique<GidaspowDrag>(p[0]); }},
+      {"difelice",
+       {{"voidage", 0.0, 1.0, true}},
+       [](const double *p) { return std::make_unique<DiFeliceDrag>(p[0]); }},
       {"none", {}, [](const double *) { return std::make_unique<NoDrag>(); }},
   };
   return laws;
@@ -129,15 +158,34 @@ inline double drag_coefficient(const DragLaw &law, const Gas &gas, double d, dou
 {
   return PI / 8.0 * gas.rho * gas.nu * d * law.cd_re(reynolds(slip_speed, d, gas));
 }
+// at a voidage of the place, for laws that have one
+inline double drag_coefficient(const DragLaw &law, const Gas &gas, double d, double slip_speed, double voidage)
+{
+  return PI / 8.0 * gas.rho * gas.nu * d * law.cd_re(reynolds(slip_speed, d, gas), voidage);
+}
+
+// Voidage of a cell that holds this volume of spheres. Spheres that stand for clusters may fill a cell beyond what equal
+// ones can, pi/sqrt(18) of it (Kepler): that is where the laws are cut off.
+inline double voidage_of(double volume_of_spheres, double cell_volume)
+{
+  return 1.0 - std::min(volume_of_spheres / cell_volume, PI / std::sqrt(18.0));
+}
+
+// Where the gas carries the suspension, its pressure falls by the weight of the particles, and that acts on each of them
+// besides drag: by 1/eps in all, "model B" of Gidaspow (1994); without it, "model A".
+inline double with_pressure_gradient(double voidage)
+{
+  return 1.0 / voidage;
+}
 
 // The share F of particles that feel the gas unshielded carries the drag of single particles:
 // b = (1 - F) b_cluster + F n b_particle, 0 <= F <= 1
 inline double cluster_drag_coefficient(const DragLaw &law, const Gas &gas, double d, double d_p, double n,
-                                       double unshielded, double slip_speed)
+                                       double unshielded, double slip_speed, double voidage = 1.0)
 {
   double b = 0.0;
-  if (unshielded < 1.0) b += (1.0 - unshielded) * drag_coefficient(law, gas, d, slip_speed);
-  if (unshielded > 0.0) b += unshielded * n * drag_coefficient(law, gas, d_p, slip_speed);
+  if (unshielded < 1.0) b += (1.0 - unshielded) * drag_coefficient(law, gas, d, slip_speed, voidage);
+  if (unshielded > 0.0) b += unshielded * n * drag_coefficient(law, gas, d_p, slip_speed, voidage);
   return b;
 }
 

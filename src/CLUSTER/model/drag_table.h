@@ -22,6 +22,7 @@ class DragTable : public DragLaw {
     for (std::size_t k = 0; k < bins_.size(); k++) bins_[k] = fit(start_of(k), start_of(k + 1));
   }
 
+  double cd_re(double re, double) const override { return DragTable::cd_re(re); }
   double cd_re(double re) const override
   {
     const std::int64_t k = bin_of(re) - bin_of(LOWEST);
