@@ -70,6 +70,11 @@ class Scene:
     np_: int = 1
     frames: int = 10
     time_limit: float = 120.0
+    files: dict[str, str] = field(default_factory=dict)  # that the commands read, by name
+    before: str = ""  # commands after the data file is read: other atoms, groups
+    group: str = "all"  # of the clusters: what our fixes, the motion and the dumps are for
+    types: int = 1  # of atoms
+    widest: float = 0.0  # diameter of the largest atom that is no cluster
     extra: str = ""  # more commands before run
     # ---- what must hold
     expect: str = HELD
@@ -77,6 +82,7 @@ class Scene:
     momentum: bool = True  # nothing outside acts
     energy: float | None = None  # most that energy may rise, as a share; None: not bounded
     frame: tuple[float, float, float] = (0.0, 0.0, 0.0)  # velocity of the frame in which energy is bounded
+    open: bool = False  # other commands let clusters in or out, which the fix counts
     more: tuple = ()  # further checks: functions of (scene, frames, run) that return a fault or ""
     # ---- its place in the campaign
     family: str = ""
@@ -100,7 +106,7 @@ class Scene:
     def data_file(self) -> str:
         c = self.clusters
         ids = np.arange(1, len(c) + 1) if c.ids is None else c.ids
-        lines = ["start", "", f"{len(c)} atoms", "1 atom types"]
+        lines = ["start", "", f"{len(c)} atoms", f"{self.types} atom types"]
         for axis, length in zip("xyz", self.box):
             lines.append(f"0 {length!r} {axis}lo {axis}hi")
         if not len(c):
@@ -128,14 +134,14 @@ class Scene:
     def ghost(self) -> float:
         largest = float(self.diameter(self.limits[1]))
         claim = self.claim or 1.6 * largest
-        return 1.001 * (2.0 * claim + self.skin()) if self.size else 0.0
+        return 1.001 * (max(2.0 * claim, claim + 0.5 * self.widest) + self.skin()) if self.size else 0.0
 
     def limit_words(self) -> str:
         """A scene may give the keyword itself."""
         return "" if "limits" in self.size else f"limits {self.limits[0]} {self.limits[1]}"
 
     def script(self) -> str:
-        largest = float(self.diameter(max([self.limits[1], *self.clusters.n])))
+        largest = max(float(self.diameter(max([self.limits[1], *self.clusters.n]))), self.widest)
         c = self.contact
         ghost = f" cutoff {self.ghost()!r}" if self.ghost() else ""
         if c.style == "granular":
@@ -164,17 +170,19 @@ class Scene:
             "read_data start.data",
             pair,
         ]
+        if self.before:
+            lines.append(self.before)
         if self.control:
             lines.append(f"fix step all cluster/timestep {self.control}")
-        lines.append("fix move all nve/sphere" if self.rotates else "fix move all nve")
+        lines.append(f"fix move {self.group} nve{'/sphere' if self.rotates else ''}")
         if self.before_gas:
             lines.append(self.before_gas)
         if self.gas:
-            lines.append(f"fix drag all drag/cluster {RHO_G} {NU_G} {self.gas}")
+            lines.append(f"fix drag {self.group} drag/cluster {RHO_G} {NU_G} {self.gas}")
         if self.size:
             claim = f" claim {self.claim!r}" if self.claim else ""
             lines += [
-                f"fix size all cluster/breakmerge {self.every} {self.d_p!r} {RHO_P} {self.size} "
+                f"fix size {self.group} cluster/breakmerge {self.every} {self.d_p!r} {RHO_P} {self.size} "
                 f"{self.limit_words()}{claim}",
                 f'fix table all ave/time 1 1 {every} f_size[*] mode scalar file out.txt format " %.17g"',
             ]
@@ -182,10 +190,10 @@ class Scene:
             lines.append(self.extra)
         lines += [
             f"timestep {self.dt!r}",
-            f"dump frames all custom {every} frames.dump {columns}",
+            f"dump frames {self.group} custom {every} frames.dump {columns}",
             "dump_modify frames sort id format float %.17g",
             f"thermo {every}",
             f"run {self.steps}",
-            f"write_dump all custom end.dump {columns} modify sort id format float %.17g",
+            f"write_dump {self.group} custom end.dump {columns} modify sort id format float %.17g",
         ]
         return "\n".join(lines) + "\n"

@@ -4,6 +4,7 @@ import families_contact
 import families_events
 import families_gas
 import families_gran_cluster
+import families_guests
 import families_neighbors
 import families_step_control
 from family import FAMILIES, SEED
@@ -15,6 +16,7 @@ __all__ = [
     "families_events",
     "families_gas",
     "families_gran_cluster",
+    "families_guests",
     "families_neighbors",
     "families_step_control",
 ]

@@ -51,7 +51,8 @@ class Outcome:
 def ran(scene: Scene, folder: Path) -> Outcome:
     """Run the scene in the folder and judge it."""
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "start.data").write_text(scene.data_file())
+    for name, text in {"start.data": scene.data_file(), **scene.files}.items():
+        (folder / name).write_text(text)
     try:
         result = run(folder, scene.script(), scene.np_, check=False, timeout=scene.time_limit)
     except subprocess.TimeoutExpired:
