@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -141,6 +143,13 @@ def write(*columns: str, name: str = "end.dump") -> str:
         f"write_dump all custom {name} id x y z vx vy vz fx fz diameter mass {' '.join(columns)} "
         "modify sort id format float %.17g\n"
     )
+
+
+@cache
+def bits_of_ids() -> int:
+    """Of this engine: 32, or 64 where it was built with -DLAMMPS_SIZES=bigbig."""
+    said = subprocess.run([LMP, "-h"], capture_output=True, text=True, check=True).stdout
+    return int(re.search(r"sizeof\(tagint\): *(\d+)-bit", said)[1])
 
 
 def have_mpirun() -> bool:
