@@ -21,7 +21,8 @@ from pathlib import Path
 import numpy as np
 
 from .analysis.grid import Grid, grid_of_cells, solids_fraction
-from .analysis.nonuniformity import lateral, measure, strips
+from .analysis.nonuniformity import measure
+from .analysis.profiles import lateral, strips
 from .analysis.sizes import borders_of, class_names, class_shares, mean_diameter, sauter_diameter
 from .errors import ArgumentError, InputError
 from .frame import Floats, Frame

@@ -64,6 +64,11 @@ def add_plane(parser: argparse.ArgumentParser) -> None:
 def add_grid(parser: argparse.ArgumentParser) -> None:
     """The grid and how clusters are put on it."""
     add_cells(parser)
+    add_deposit(parser)
+
+
+def add_deposit(parser: argparse.ArgumentParser) -> None:
+    """How clusters are put on the cells."""
     parser.add_argument(
         "--deposit",
         choices=("nearest", "overlap"),
