@@ -13,22 +13,20 @@ import argparse
 from math import isnan
 from pathlib import Path
 
-from ..analysis.cells import Cells
 from ..analysis.grid import check_resolution, maps_of
-from ..analysis.space import SpaceGrid
 from ..errors import ArgumentError
 from ..frame import Frame
 from ..io.parallel import over_frames
 from ..io.reader import notes
 from ..io.vtk import write_image, write_points, write_series
 from .common import (
+    add_any_cells,
     add_density,
     add_deposit,
     add_dumps,
-    add_plane,
-    columns_for,
+    any_grid_for,
+    check_any_grid,
     finish,
-    grid_for,
     particles_of,
     say_particles,
     tell,
@@ -37,15 +35,7 @@ from .common import (
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_dumps(parser)
-    parser.add_argument(
-        "--grid",
-        type=int,
-        nargs="+",
-        default=(30, 30),
-        metavar="N",
-        help="cells along the plane's two axes, or along x, y and z (default 30 30)",
-    )
-    add_plane(parser)
+    add_any_cells(parser)
     add_deposit(parser)
     add_density(parser)
     parser.add_argument(
@@ -53,28 +43,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _check_grid(options: argparse.Namespace) -> None:
-    words = " ".join(str(cells) for cells in options.grid)
-    if len(options.grid) not in (2, 3):
-        raise ArgumentError("grid", f"must be two numbers of cells, in a plane, or three, in space, not {words}")
-    columns_for(options.plane)  # refuses what is no plane
-    if len(options.grid) == 3 and options.plane != "xz":
-        raise ArgumentError("plane", f"is for two numbers of cells: {words} are cells in space")
-
-
-def _grid(options: argparse.Namespace, frame: Frame) -> Cells:
-    if len(options.grid) == 2:
-        return grid_for(options, frame)
-    nx, ny, nz = options.grid
-    return SpaceGrid(frame.box, (nx, ny, nz))
-
-
 def run(options: argparse.Namespace) -> None:
     out: Path = options.out
-    _check_grid(options)
+    check_any_grid(options)
 
     def work(frame: Frame) -> tuple[Path, Path, str | None, str | None]:
-        grid = _grid(options, frame)
+        grid = any_grid_for(options, frame)
         check_resolution(frame, grid)
         points = write_points(out / f"clusters.{frame.step:010d}.vtp", frame)
         unknown = None

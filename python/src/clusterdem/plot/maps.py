@@ -51,7 +51,7 @@ def fields_of(plane: str) -> list[Field]:
 
 def error_of(field: Field) -> Field:
     """How the standard error of an average is drawn."""
-    label = f"standard error of {field.label}"
+    label = f"standard error of\n{field.label}"
     return replace(field, label=label, colours="magma", from_zero=True, diverging=False, clipped=False, note="")
 
 

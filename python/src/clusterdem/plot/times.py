@@ -127,7 +127,8 @@ def draw_average(means: Mapping[str, TimeAverage], profile: Profile, label: str)
                 alpha=0.25,
                 label="± 2 standard errors",
             )
-            if np.nanmin(mean, initial=0.0) >= 0:
+            axis.set_xlim(edges[0], edges[-1])
+            if name == "fraction":
                 axis.set_ylim(bottom=0)
         figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2, frameon=False)
     return figure
