@@ -3,6 +3,8 @@ from .analysis.averages import TimeAverage as TimeAverage
 from .analysis.averages import average_of as average_of
 from .analysis.averages import time_average as time_average
 from .analysis.correlation import pair_correlation as pair_correlation
+from .analysis.difference import Difference as Difference
+from .analysis.difference import difference_between as difference_between
 from .analysis.flow import Crossings as Crossings
 from .analysis.flow import MassFlow as MassFlow
 from .analysis.flow import Section as Section
@@ -32,6 +34,8 @@ from .analysis.sizes import sauter_diameter as sauter_diameter
 from .analysis.space import SpaceGrid as SpaceGrid
 from .analysis.velocities import Moments as Moments
 from .analysis.velocities import velocity_moments as velocity_moments
+from .comparison import Compared as Compared
+from .comparison import compare_runs as compare_runs
 from .errors import ArgumentError as ArgumentError
 from .errors import InputError as InputError
 from .frame import Box as Box

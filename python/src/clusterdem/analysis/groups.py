@@ -70,6 +70,7 @@ def groups_of(frame: Frame, gap: float = 0.0) -> Groups:
 
     Examples
     --------
+    >>> from clusterdem import Box
     >>> columns = {"x": [0.1, 0.9, 2.0], "y": [0.5] * 3, "z": [0.5] * 3, "mass": [1.0, 2.0, 4.0], "diameter": [0.5, 0.4, 0.4]}
     >>> frame = Frame(0, 0.0, Box((0, 0, 0), (3.0, 1, 1)), {k: np.array(v) for k, v in columns.items()})
     >>> groups_of(frame, 0.4).mass.tolist(), groups_of(frame, 0.4).extent[0].round(6).tolist()

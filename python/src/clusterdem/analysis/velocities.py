@@ -60,6 +60,7 @@ def velocity_moments(frame: Frame, axes: str = "xz", by: str = "number") -> Mome
 
     Examples
     --------
+    >>> from clusterdem import Box
     >>> columns = {"x": [0.1, 0.2], "z": [0.1, 0.2], "mass": [1.0, 3.0], "diameter": [0.1, 0.1], "vx": [1.0, 3.0], "vz": [0.0, 0.0]}
     >>> frame = Frame(0, 0.0, Box((0, 0, 0), (1, 1, 1)), {k: np.array(v) for k, v in columns.items()})
     >>> velocity_moments(frame).temperature, velocity_moments(frame, "x", "mass").mean.tolist()
