@@ -44,6 +44,9 @@ def test_single_runs_and_runs_that_are_alike():
     assert found.difference.tolist() == [2.0] and math.isnan(found.error[0]) and math.isnan(found.p_value[0])
     same = np.array([[1.0, 2.0], [1.0, 2.0]])
     assert difference_between(same, same + [0.0, 1.0]).p_value.tolist() == [1.0, 0.0]
+    digits = np.array([[1.0], [1.0 + 1e-9], [1.0 + 3e-9]])  # the same but for rounding, off by a hundred spreads
+    assert difference_between(digits, digits + 1e-7).p_value.tolist() == [1.0]
+    assert difference_between(digits, digits + 1e-5).p_value.tolist() == [0.0]
     for wrong in (np.zeros((0, 2)), np.zeros((2, 3)), np.zeros(2)):
         with pytest.raises(ArgumentError, match="second: must be rows as long as the first's"):
             difference_between(same, wrong)

@@ -17,7 +17,6 @@ from .times import nearest, tolerance_at
 DEFAULT = (
     "count",
     "mass",
-    "clusters",
     "mean_diameter",
     "sauter_diameter",
     "size_classes",

@@ -10,6 +10,9 @@ from scipy.special import stdtr
 from ..errors import ArgumentError
 from ..frame import Floats
 
+ROUNDING = 1e-6
+"""Share of a number below which a difference is that of the digits that dumps are written with."""
+
 
 @dataclass(frozen=True)
 class Difference:
@@ -90,8 +93,8 @@ def difference_between(first: Floats, second: Floats) -> Difference:
     apart = np.abs(other - one)
     with np.errstate(invalid="ignore", divide="ignore"):
         p_value = 2 * stdtr(freedom, -apart / error)
-    exact = error == 0  # runs that do not differ at all
-    p_value = np.where(exact, np.where(apart > 0, 0.0, 1.0), p_value)
+    exact = error <= ROUNDING * np.abs(one)  # runs that are alike but for the digits of their dumps
+    p_value = np.where(exact, np.where(apart > ROUNDING * np.abs(one), 0.0, 1.0), p_value)
     return Difference(one, other, spreads[0], spreads[1], error, p_value)
 
 

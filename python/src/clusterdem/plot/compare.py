@@ -15,6 +15,9 @@ MOST_PANELS = 9
 UNITS = {"m": (1e6, "µm"), "kg": (1e3, "g")}
 """Factors to the units that figures have, and these."""
 
+LEAST = 0.02
+"""What a panel spans at least, as a share of its values."""
+
 
 def draw_compared(compared: Compared, names: Sequence[str]) -> Figure:
     """A panel per observable of one number, the first nine: both groups' means, and the spread as a band.
@@ -43,6 +46,10 @@ def draw_compared(compared: Compared, names: Sequence[str]) -> Figure:
                 label = names[("first", "second").index(group)]
                 panel.plot(times, mean, mark + "-", color=colour, markersize=3, label=label)
                 panel.fill_between(times, mean - spread, mean + spread, color=colour, alpha=0.2, linewidth=0)
+            low, high = panel.get_ylim()
+            least = LEAST * max(abs(low), abs(high))
+            if high - low < least:  # what differs by rounding alone looks alike
+                panel.set_ylim((low + high - least) / 2, (low + high + least) / 2)
             words = [what.label, compared.parts[name][0]]
             panel.set_ylabel(" ".join(word for word in words if word) + (f" ({unit})" if unit else ""))
         for number, panel in enumerate(panels):

@@ -86,6 +86,7 @@ def draw_temperature(
             )
         temperature.set_ylabel("granular temperature (m²/s²)")
         temperature.set_ylim(bottom=0)
+        temperature.ticklabel_format(axis="y", scilimits=(-3, 4))
         for panel in (mean, temperature):
             panel.set_xlabel(label)
             panel.legend(frameon=False)
