@@ -107,9 +107,10 @@ def test_map_average(tmp_path, command):
         assert [row["x"] for row in rows[::5]] == pytest.approx([-0.03, 0.01, 0.05])
 
 
-def test_average_since_a_time(tmp_path, command):
+@pytest.mark.parametrize("since", ["0.0199", "0.02", "0.0200000000000001"])
+def test_average_since_a_time(since, tmp_path, command):
     dumps, frames = write_skew_run(tmp_path, [40, 30, 90, 55, 70])
-    words = ("--average", "2", "--since", "0.0199", "--grid", "2", "2", "--no-figures", "--out", tmp_path / "m")
+    words = ("--average", "2", "--since", since, "--grid", "2", "2", "--no-figures", "--out", tmp_path / "m")
     assert command("map", *dumps, *words)[0] == 0
     with np.load(tmp_path / "m/average.npz") as data:
         assert data["time"].tolist() == [0.02, 0.03, 0.04]

@@ -79,6 +79,7 @@ def cells_of(frame, shape, axes):
         (("--type", "2"), lambda frame: frame["type"] == 2),
         (("--above", "diameter", "4.1e-3"), lambda frame: frame.diameter > 4.1e-3),
         (("--above", "vy", "-0.2"), lambda frame: frame["vy"] > -0.2),
+        (("--above", "n", "30"), lambda frame: frame["n"] > 30),  # some have 30
     ],
 )
 @pytest.mark.parametrize(("shape", "plane"), [((4, 3), "yx"), ((2, 3, 4), "xyz")])

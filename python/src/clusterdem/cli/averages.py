@@ -43,7 +43,8 @@ def averaged(options: argparse.Namespace, heads: Sequence[Frame]) -> list[int]:
     if options.since is not None:
         if any(np.isnan(head.time) for head in heads):
             raise ArgumentError("since", "frames hold no time: give --dt")
-        chosen = [number for number in chosen if heads[number].time >= options.since]
+        slack = 1e-9 * max(abs(head.time) for head in heads)  # times are products of steps, with their rounding
+        chosen = [number for number in chosen if heads[number].time >= options.since - slack]
     check_blocks(options.average, len(chosen))
     return chosen
 
