@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 from pathlib import Path
 
 import numpy as np
@@ -62,3 +63,44 @@ def write_run(folder: Path, frames: int = 3, count: int = 400) -> list[Path]:
         write_dump(folder / f"case1.{10000 * i:07d}.dump", random_frame(count * (i + 1), 10000 * i, 0.01 * i))
         for i in range(frames)
     ]
+
+
+SKEW = Box((-0.05, 0.2, -0.3), (0.07, 0.25, 0.7), (True, False, False))
+"""A box different in all directions, with its corner off the origin."""
+
+
+def skew_frame(count: int = 300, step: int = 0, time: float = 0.0, box: Box = SKEW) -> Frame:
+    """Clusters that differ in every direction: more of them low, heavy ones to one side, each axis with its own motion."""
+    rng = np.random.default_rng([7, step])
+    spread = {"x": rng.beta(2, 3, count), "y": rng.beta(1, 2, count), "z": rng.beta(1, 4, count)}
+    columns = {axis: low + (high - low) * spread[axis] for axis, low, high in zip("xyz", box.lo, box.hi, strict=True)}
+    n = rng.integers(1, 60, count) * (1 + 3 * (columns["x"] > 0.02))
+    columns |= {
+        "id": rng.permutation(count) + 1.0,
+        "type": rng.integers(1, 4, count).astype(float),
+        "vx": rng.normal(0.3, 0.1, count),
+        "vy": rng.normal(-0.2, 0.5, count),
+        "vz": rng.normal(1.0, 0.9, count) + columns["z"],
+        "diameter": 1e-3 * np.cbrt(2 * n),
+        "mass": n * np.pi / 6 * 1e-9 * 2500,
+        "n": n.astype(float),
+    }
+    return Frame(step, time, box, columns)
+
+
+SKEW_NAMES = "id type x y z vx vy vz diameter mass n".split()
+
+
+def write_skew_run(
+    folder: Path, counts: list[int], box: Box = SKEW, dt: float = 0.01
+) -> tuple[list[Path], list[Frame]]:
+    """A run of skew frames, one file each; the frames as they are, in the same order."""
+    folder.mkdir(parents=True, exist_ok=True)
+    frames = [skew_frame(count, 100 * i, dt * i, box) for i, count in enumerate(counts)]
+    return [write_dump(folder / f"skew.{f.step:06d}.dump", f, SKEW_NAMES) for f in frames], frames
+
+
+def rows_of(path: Path) -> list[dict[str, float]]:
+    """A CSV file of numbers."""
+    with open(path, newline="") as file:
+        return [{name: float(text) for name, text in row.items()} for row in csv.DictReader(file)]

@@ -87,7 +87,7 @@ def test_a_commands_summary_is_its_first_line(name):
 
 def _least(name):
     """The fewest words that a command takes."""
-    words = {"compare": ["a", "--case", "case1"], "start": [], "gas": ["jet"]}
+    words = {"compare": ["a", "--case", "case1"], "start": [], "gas": ["jet"], "mixing": ["a", "--type", "1"]}
     return [name, *words.get(name, ["a"])]
 
 

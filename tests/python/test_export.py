@@ -143,6 +143,8 @@ def test_scatter_and_profile(tmp_path, command):
     assert {p.name for p in (tmp_path / "p").iterdir()} == {
         "lateral.csv",
         "strips.csv",
+        "height.csv",
+        "height.png",
         "gr.csv",
         "lateral.png",
         "gr.png",

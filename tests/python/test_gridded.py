@@ -48,6 +48,17 @@ def test_drawn_by_the_same_command(folder, command, tmp_path):
         assert (tmp_path / name).stat().st_size > 1000 and name in out
 
 
+def test_averages_of_the_runs_maps_are_those_of_its_clusters(folder, command, tmp_path):
+    for kind, words in (("maps", ()), ("dump", ("--grid", "15", "20"))):
+        given = folder.glob(f"case1.*.{kind}")
+        code, out, err = command("map", *given, *words, "--average", "2", "--out", tmp_path / kind)
+        assert (code, err) == (0, "") and "error_fraction.png" in out
+    with np.load(tmp_path / "maps/average.npz") as made, np.load(tmp_path / "dump/average.npz") as expected:
+        assert set(made.files) == set(expected.files) and made["step"].tolist() == [0, 200, 400]
+        for name in ("fraction", "fraction_error", "velocity_z", "velocity_z_error", "mean_diameter"):
+            np.testing.assert_allclose(made[name], expected[name], rtol=1e-10, atol=1e-10, err_msg=name)
+
+
 def test_no_clusters_are_written_where_none_are_asked_for(tmp_path):
     command = [LMP, "-in", "inputs/case1.in", *"-var tend 2e-5 -var maps yes -var dump_style none -log none".split()]
     done = subprocess.run(

@@ -40,9 +40,12 @@ def test_two_ranks_write_the_same_bytes(tmp_path, one_file):
         joined = tmp_path / "all.dump"
         joined.write_text("".join(path.read_text() for path in dumps))
         dumps = [joined]
-    for name in ("sizes",) if one_file else ("map",):
-        one = run([name, *dumps, "--no-figures", "--out", tmp_path / f"{name}1"])
-        two = run([name, *dumps, "--no-figures", "--out", tmp_path / f"{name}2"], MPI)
+    names = ("sizes", "velocities", "groups") if one_file else ("map", "flow", "mixing")
+    more = {"map": ("--average", "2"), "flow": ("--average", "2"), "mixing": ("--above", "diameter", "1e-3")}
+    for name in names:
+        words = [name, *dumps, "--no-figures", *more.get(name, ())]
+        one = run([*words, "--out", tmp_path / f"{name}1"])
+        two = run([*words, "--out", tmp_path / f"{name}2"], MPI)
         assert (one.returncode, two.returncode) == (0, 0), two.stderr
         assert one.stdout.replace(f"{name}1", "") == two.stdout.replace(f"{name}2", "")
         assert digests(tmp_path / f"{name}1") == digests(tmp_path / f"{name}2")

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from clusterdem import class_shares, mean_diameter, sauter_diameter
 from clusterdem.analysis.grid import Grid, maps_of
-from clusterdem.analysis.nonuniformity import lateral, measure, strips
+from clusterdem.analysis.nonuniformity import measure
+from clusterdem.analysis.profiles import lateral, strips
 from clusterdem.analysis.sizes import histogram
 from clusterdem.errors import InputError
 from clusterdem.frame import Box, Frame

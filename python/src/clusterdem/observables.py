@@ -21,8 +21,11 @@ from pathlib import Path
 import numpy as np
 
 from .analysis.grid import Grid, grid_of_cells, solids_fraction
-from .analysis.nonuniformity import lateral, measure, strips
+from .analysis.groups import groups_of
+from .analysis.nonuniformity import measure
+from .analysis.profiles import lateral, strips
 from .analysis.sizes import borders_of, class_names, class_shares, mean_diameter, sauter_diameter
+from .analysis.velocities import velocity_moments
 from .errors import ArgumentError, InputError
 from .frame import Floats, Frame
 
@@ -134,6 +137,11 @@ def _lateral_fraction(frame: Frame, how: How) -> Floats:
     return fraction
 
 
+def _largest_group(frame: Frame) -> float:
+    """Clusters of it."""
+    return float(groups_of(frame).clusters[0]) if len(frame) else 0.0
+
+
 def _classes(how: How) -> tuple[str, ...]:
     return class_names(how.borders)
 
@@ -221,6 +229,14 @@ for _observable in (
     ),
     Observable("dispersion", "dispersion", "", _dispersion),
     Observable("lateral_fraction", "lateral fraction", "", _lateral_fraction),
+    Observable(
+        "granular_temperature",
+        "granular temperature",
+        "m²/s²",
+        lambda frame, how: np.array([velocity_moments(frame, how.plane).temperature]),
+        columns=("vx", "vy", "vz"),
+    ),
+    Observable("largest_group", "largest group that touches", "", _single(_largest_group), columns=("y",)),
     Observable(
         "strip_diameter",
         "mean d in strip",

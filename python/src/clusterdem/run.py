@@ -135,6 +135,16 @@ class Run:
         ArgumentError
             If there is none, or no frame has a time.
         """
+        return self.frame(self.heads[self.at_number(time)], columns)
+
+    def at_number(self, time: float) -> int:
+        """Number of the frame that :meth:`at` gives, from 0 on.
+
+        Raises
+        ------
+        ArgumentError
+            As there.
+        """
         number = nearest(self.times, time)
         if number is None:
             if not len(self) or np.isnan(self.times).all():
@@ -144,7 +154,7 @@ class Run:
             raise ArgumentError(
                 "time", f"no frame within {within:g} s of {time:g} s; the nearest is at {float(closest):g} s"
             )
-        return self.frame(self.heads[number], columns)
+        return number
 
     def frame(self, head: Frame, columns: Collection[str] | None = None) -> Frame:
         """The frame of a head, read again."""

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ..errors import ArgumentError, InputError
 from ..frame import Box, Floats, Frame
+from .cells import Cells
 from .overlap import overlap_weights
 
 MAX_CELLS = 10_000_000
@@ -69,6 +70,11 @@ class Grid:
         return (self.nx, self.nz)
 
     @property
+    def count(self) -> int:
+        """Cells."""
+        return self.nx * self.nz
+
+    @property
     def corner(self) -> tuple[float, float]:
         """Lower bounds of the box along the two axes (m)."""
         return (self.box.lo[self.axes[0]], self.box.lo[self.axes[1]])
@@ -116,24 +122,24 @@ def grid_of_cells(box: Box, cell: tuple[float, float], plane: str = "xz") -> Gri
     return Grid(box, nx, nz, plane)
 
 
-def cell_of(grid: Grid, u: Floats, v: Floats) -> NDArray[np.int64]:
-    """Flat index of the cell that holds each point, shape (N,).
+def cell_of(grid: Cells, *places: Floats) -> NDArray[np.int64]:
+    """Flat index of the cell that holds each point, shape (N,); coordinates along the grid's axes, shape (N,) each.
 
     A point on a cell's lower border belongs to it; beyond the box the outermost cell takes it.
     """
-    place = zip((u, v), grid.corner, grid.spacing, grid.shape)
-    i, k = (np.clip(np.floor((x - low) / width), 0, cells - 1).astype(np.int64) for x, low, width, cells in place)
-    flat: NDArray[np.int64] = i * grid.nz + k
+    flat = np.zeros(len(places[0]), np.int64)
+    for x, low, width, cells in zip(places, grid.corner, grid.spacing, grid.shape):
+        flat = flat * cells + np.clip(np.floor((x - low) / width), 0, cells - 1).astype(np.int64)
     return flat
 
 
-def check_resolution(frame: Frame, grid: Grid) -> None:
+def check_resolution(frame: Frame, grid: Cells) -> None:
     """Refuse cells narrower than the smallest cluster: their fractions would say nothing."""
     narrowest = min(grid.spacing)
     smallest = float(frame.diameter.min(initial=np.inf))
     if narrowest < smallest < np.inf:
         rule = (
-            f"a grid of {grid.nx} x {grid.nz} has cells of {narrowest:.3g} m, "
+            f"a grid of {' x '.join(str(cells) for cells in grid.shape)} has cells of {narrowest:.3g} m, "
             f"narrower than the smallest cluster ({smallest:.3g} m): use fewer cells"
         )
         raise InputError(frame.path, rule, frame.line)
@@ -145,7 +151,7 @@ class Deposit:
 
     Parameters
     ----------
-    grid : Grid
+    grid : Grid or SpaceGrid
         The grid.
     cell : ndarray of int, shape (M,)
         Flat cell index of each share.
@@ -155,7 +161,7 @@ class Deposit:
         The share, 0 to 1; None if all are 1. The weights of one cluster sum to 1.
     """
 
-    grid: Grid
+    grid: Cells
     cell: NDArray[np.int64]
     cluster: NDArray[np.int64] | None = None
     weight: Floats | None = None
@@ -174,7 +180,7 @@ class Deposit:
 
         Returns
         -------
-        ndarray, shape (nx, nz)
+        ndarray, of the grid's shape
         """
         return self.sum(None if values is None else self.of(values))
 
@@ -182,8 +188,7 @@ class Deposit:
         """Sum in each cell of a quantity of each share, shape (M,), times its weight; 1 by default."""
         if self.weight is not None:
             shares = self.weight if shares is None else shares * self.weight
-        cells = self.grid.nx * self.grid.nz
-        return np.bincount(self.cell, shares, cells).astype(np.float64, copy=False).reshape(self.grid.shape)
+        return np.bincount(self.cell, shares, self.grid.count).astype(np.float64, copy=False).reshape(self.grid.shape)
 
 
 def deposit(grid: Grid, u: Floats, v: Floats, diameter: Floats | None = None, method: str = "nearest") -> Deposit:
@@ -222,45 +227,70 @@ def deposit(grid: Grid, u: Floats, v: Floats, diameter: Floats | None = None, me
     return Deposit(grid, ix * grid.nz + iz, cluster, weight)
 
 
+def deposit_frame(frame: Frame, grid: Cells, method: str = "nearest") -> Deposit:
+    """Assign a frame's clusters to the cells of any grid, as :func:`deposit` does.
+
+    Raises
+    ------
+    ArgumentError
+        If the method is ``overlap`` and the grid one in space.
+    """
+    if isinstance(grid, Grid):
+        return deposit(grid, *grid.places(frame), frame.diameter, method)
+    if method != "nearest":
+        raise ArgumentError("method", f"must be nearest for cells in space, not {method}")
+    return Deposit(grid, cell_of(grid, *grid.places(frame)))
+
+
 Maps = dict[str, Floats]
 
 
-def solids_fraction(frame: Frame, grid: Grid, method: str = "nearest") -> Floats:
-    """Solids volume fraction of each cell, shape (nx, nz); see :attr:`clusterdem.Frame.solids` for what it rests on."""
-    return deposit(grid, *grid.places(frame), frame.diameter, method).total(frame.solids) / grid.cell_volume
+def solids_fraction(frame: Frame, grid: Cells, method: str = "nearest") -> Floats:
+    """Solids volume fraction of each cell, of the grid's shape; see :attr:`clusterdem.Frame.solids` for what it rests on."""
+    return deposit_frame(frame, grid, method).total(frame.solids) / grid.cell_volume
+
+
+WEIGHTS = {
+    "velocity_x": "mass",
+    "velocity_y": "mass",
+    "velocity_z": "mass",
+    "temperature": "mass",
+    "mean_diameter": "number_density",
+}
+"""What the means among the maps are weighted by, for averages over time."""
 
 
 def _ratio(a: Floats, b: Floats) -> Floats:
     return np.divide(a, b, out=np.full_like(a, np.nan), where=b > 0)
 
 
-def maps_of(frame: Frame, grid: Grid, method: str = "nearest", fractions: bool = True) -> Maps:
+def maps_of(frame: Frame, grid: Cells, method: str = "nearest", fractions: bool = True) -> Maps:
     """All maps of a frame.
 
     Parameters
     ----------
     frame : Frame
         The clusters.
-    grid : Grid
+    grid : Grid or SpaceGrid
         The grid.
     method : str
-        As in :func:`deposit`.
+        As in :func:`deposit_frame`.
     fractions : bool
         Whether the solids fraction is among them, which needs to know the primary particles.
 
     Returns
     -------
-    dict of str to ndarray, shape (nx, nz)
+    dict of str to ndarray, of the grid's shape
         ``mass`` (kg), ``fraction``, ``number_density`` (1/m³), ``mean_diameter`` (m, by number) and, where velocities
-        are known, the mass-weighted ``velocity_x``, ``velocity_z`` (m/s, named after the plane's axes) and
-        ``temperature``, the granular temperature of the motion in the plane, <(v − <v>)²>/2 (m²/s²) about the cell's
+        are known, the mass-weighted ``velocity_x``, ``velocity_z`` (m/s, named after the grid's D axes) and
+        ``temperature``, the granular temperature of the motion along these, <(v − <v>)²>/D (m²/s²) about the cell's
         own mean: of n clusters of one mass it is (n − 1)/n of what more of them would show. Means are NaN in empty
         cells, the temperature in cells with one cluster.
 
     Raises
     ------
     ArgumentError
-        If the density of the primary particles is needed and not known.
+        If the density of the primary particles is needed and not known, or the method is not one for the grid.
 
     Examples
     --------
@@ -270,7 +300,7 @@ def maps_of(frame: Frame, grid: Grid, method: str = "nearest", fractions: bool =
     >>> maps["fraction"].shape, f"{maps['fraction'].max():.3e}", f"{maps['number_density'].max():.2e} 1/m³"
     ((30, 30), '3.492e-04', '1.67e+06 1/m³')
     """
-    shares = deposit(grid, *grid.places(frame), frame.diameter, method)
+    shares = deposit_frame(frame, grid, method)
     mass, count = shares.total(frame.mass), shares.total()
     maps: Maps = {"mass": mass}
     if fractions:
@@ -278,14 +308,14 @@ def maps_of(frame: Frame, grid: Grid, method: str = "nearest", fractions: bool =
     maps["number_density"] = count / grid.cell_volume
     maps["mean_diameter"] = _ratio(shares.total(frame.diameter), count)
     if all(f"v{axis}" in frame for axis in grid.plane):
-        several = np.bincount(shares.cell, minlength=grid.nx * grid.nz).reshape(grid.shape) > 1
+        several = np.bincount(shares.cell, minlength=grid.count).reshape(grid.shape) > 1
         temperature = np.zeros(grid.shape)
         own_mass = shares.of(frame.mass)
         for axis in grid.plane:
             velocity = frame[f"v{axis}"]
             mean = _ratio(shares.total(frame.mass * velocity), mass)
             apart = shares.of(velocity) - np.nan_to_num(mean).ravel()[shares.cell]
-            temperature += _ratio(shares.sum(own_mass * apart**2), mass) / 2
+            temperature += _ratio(shares.sum(own_mass * apart**2), mass) / len(grid.plane)
             maps[f"velocity_{axis}"] = mean
         maps["temperature"] = np.where(several, temperature, np.nan)
     return maps

@@ -1,13 +1,11 @@
-"""How unevenly the solids lie: cell statistics against chance, and profiles across the width."""
+"""How unevenly the solids lie: cell statistics against chance."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..errors import ArgumentError
 from ..frame import Floats, Frame
 from .grid import Grid, cell_of
 from .overlap import mean_square_share
@@ -69,7 +67,7 @@ def measure(fraction: Floats, frame: Frame, grid: Grid, method: str = "nearest")
     if not len(frame):
         unknown = float("nan")
         return Uniformity(0.0, 0.0, 0.0, 0.0, unknown, unknown, unknown, unknown)
-    cells = grid.nx * grid.nz
+    cells = grid.count
     squares = np.ones(len(frame))
     if method == "overlap":
         squares = mean_square_share(frame.diameter / 2, grid.spacing, grid.shape, grid.periodic)
@@ -88,75 +86,3 @@ def measure(fraction: Floats, frame: Frame, grid: Grid, method: str = "nearest")
         number_dispersion=float(number.var() / (number.mean() * (1 - 1 / cells))) if cells > 1 else float("nan"),
         dense_share=float(fraction[fraction > 2 * mean].sum() / fraction.sum()),
     )
-
-
-@dataclass(frozen=True)
-class Profile:
-    """A lateral profile.
-
-    Parameters
-    ----------
-    edges : ndarray, shape (B + 1,)
-        Borders of the strips (m).
-    fraction : ndarray, shape (B,), or None
-        Solids fraction, where it was asked for.
-    velocity : ndarray, shape (B,), or None
-        Mass-weighted mean velocity along the plane's second axis (m/s).
-    diameter : ndarray, shape (B,)
-        Mean diameter by number (m); NaN where no cluster is.
-    count : ndarray, shape (B,)
-        Clusters.
-    plane : str
-        The axis across, and the one of the velocity.
-    """
-
-    edges: Floats
-    fraction: Floats | None
-    velocity: Floats | None
-    diameter: Floats
-    count: Floats
-    plane: str = "xz"
-
-
-def _sums(where: NDArray[np.int64], values: Floats, bins: int) -> Floats:
-    return np.bincount(where, values, bins).astype(np.float64, copy=False)
-
-
-def _profile(place: Floats, edges: Floats, frame: Frame, plane: str, fractions: bool) -> Profile:
-    bins = len(edges) - 1
-    where = np.clip(np.searchsorted(edges, place, side="right") - 1, 0, bins - 1)
-    count = np.bincount(where, minlength=bins).astype(np.float64)
-    mass = _sums(where, frame.mass, bins)
-
-    def mean(total: Floats, weight: Floats) -> Floats:
-        out: Floats = np.divide(total, weight, out=np.full(bins, np.nan), where=weight > 0)
-        return out
-
-    along = f"v{plane[1]}"
-    velocity = mean(_sums(where, frame.mass * frame[along], bins), mass) if along in frame else None
-    diameter = mean(_sums(where, frame.diameter, bins), count)
-    fraction = _sums(where, frame.solids, bins) / (float(np.prod(frame.box.lengths)) / bins) if fractions else None
-    return Profile(edges, fraction, velocity, diameter, count, plane)
-
-
-def lateral(frame: Frame, bins: int = 30, plane: str = "xz", fractions: bool = True) -> Profile:
-    """Profile across the width, the plane's first axis, averaged over the two others."""
-    _check_bins(bins)
-    axis = "xyz".index(plane[0])
-    return _profile(
-        frame[plane[0]], np.linspace(frame.box.lo[axis], frame.box.hi[axis], bins + 1), frame, plane, fractions
-    )
-
-
-def strips(frame: Frame, count: int = 6, plane: str = "xz", fractions: bool = True) -> Profile:
-    """Profile from the centre (0) to the wall (half the width), both halves together, in equal strips."""
-    _check_bins(count)
-    axis = "xyz".index(plane[0])
-    half = frame.box.lengths[axis] / 2
-    distance = np.abs(frame[plane[0]] - (frame.box.lo[axis] + half))
-    return _profile(distance, np.linspace(0.0, half, count + 1), frame, plane, fractions)
-
-
-def _check_bins(bins: int) -> None:
-    if bins < 1:
-        raise ArgumentError("bins", f"must be 1 or more, not {bins}")

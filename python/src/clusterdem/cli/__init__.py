@@ -19,7 +19,7 @@ from .. import __version__
 from ..errors import ArgumentError, InputError
 
 COMMANDS = (
-    "map", "sizes", "compare", "report", "profile", "scatter", "film", "vtk", "table", "start", "gas", "trade", "calibrate",
+    "map", "sizes", "compare", "report", "profile", "groups", "mixing", "velocities", "flow", "scatter", "film", "vtk", "table", "start", "gas", "trade", "calibrate",
 )  # fmt: skip
 
 OPTIONS = {

@@ -7,7 +7,9 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+from ..analysis.cells import Cells
 from ..analysis.grid import Grid
+from ..analysis.space import SpaceGrid
 from ..errors import ArgumentError
 from ..frame import Frame
 from ..io.parallel import Gathered
@@ -54,6 +56,19 @@ def add_cells(parser: argparse.ArgumentParser) -> None:
     add_plane(parser)
 
 
+def add_any_cells(parser: argparse.ArgumentParser) -> None:
+    """The grid, in a plane or in space."""
+    parser.add_argument(
+        "--grid",
+        type=int,
+        nargs="+",
+        default=(30, 30),
+        metavar="N",
+        help="cells along the plane's two axes, or along x, y and z (default 30 30)",
+    )
+    add_plane(parser)
+
+
 def add_plane(parser: argparse.ArgumentParser) -> None:
     """The plane of maps and profiles."""
     parser.add_argument(
@@ -64,6 +79,11 @@ def add_plane(parser: argparse.ArgumentParser) -> None:
 def add_grid(parser: argparse.ArgumentParser) -> None:
     """The grid and how clusters are put on it."""
     add_cells(parser)
+    add_deposit(parser)
+
+
+def add_deposit(parser: argparse.ArgumentParser) -> None:
+    """How clusters are put on the cells."""
     parser.add_argument(
         "--deposit",
         choices=("nearest", "overlap"),
@@ -76,6 +96,24 @@ def grid_for(options: argparse.Namespace, frame: Frame) -> Grid:
     """The grid of the options on a frame's box."""
     nx, nz = options.grid
     return Grid(frame.box, nx, nz, options.plane)
+
+
+def check_any_grid(options: argparse.Namespace) -> None:
+    """Refuse another number of cells than two or three, and a plane for three."""
+    words = " ".join(str(cells) for cells in options.grid)
+    if len(options.grid) not in (2, 3):
+        raise ArgumentError("grid", f"must be two numbers of cells, in a plane, or three, in space, not {words}")
+    columns_for(options.plane)  # refuses what is no plane
+    if len(options.grid) == 3 and options.plane != "xz":
+        raise ArgumentError("plane", f"is for two numbers of cells: {words} are cells in space")
+
+
+def any_grid_for(options: argparse.Namespace, frame: Frame) -> Cells:
+    """The grid of the options on a frame's box, in a plane or in space."""
+    if len(options.grid) == 2:
+        return grid_for(options, frame)
+    nx, ny, nz = options.grid
+    return SpaceGrid(frame.box, (nx, ny, nz))
 
 
 def columns_for(plane: str, *more: str) -> tuple[str, ...]:

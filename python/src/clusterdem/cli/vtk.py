@@ -1,6 +1,7 @@
 """VTK files for ParaView: open clusters.pvd (points) and maps.pvd (images) as series over time.
 
-Writes to DIR clusters.STEP.vtp and maps.STEP.vti for each frame, and the two .pvd files. In ParaView draw the points
+Writes to DIR clusters.STEP.vtp and maps.STEP.vti for each frame, and the two .pvd files. With three numbers behind --grid
+the images are cells in space, each with solids fraction, mean velocity, granular temperature and more. In ParaView draw the points
 with the Point Gaussian representation or a sphere Glyph scaled by the array diameter. OVITO needs no export: it opens
 the dumps themselves (Load File, case1.*.dump), finds the series over time, and takes the column diameter (or radius)
 as the size of the particles and n, l and the rest as their properties (checked with OVITO 3.17).
@@ -19,12 +20,13 @@ from ..io.parallel import over_frames
 from ..io.reader import notes
 from ..io.vtk import write_image, write_points, write_series
 from .common import (
+    add_any_cells,
     add_density,
+    add_deposit,
     add_dumps,
-    add_grid,
-    columns_for,
+    any_grid_for,
+    check_any_grid,
     finish,
-    grid_for,
     particles_of,
     say_particles,
     tell,
@@ -33,7 +35,8 @@ from .common import (
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_dumps(parser)
-    add_grid(parser)
+    add_any_cells(parser)
+    add_deposit(parser)
     add_density(parser)
     parser.add_argument(
         "--out", type=Path, default=Path("vtk"), metavar="DIR", help="folder for the results (default vtk)"
@@ -42,10 +45,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> None:
     out: Path = options.out
-    columns_for(options.plane)  # refuses what is no plane
+    check_any_grid(options)
 
     def work(frame: Frame) -> tuple[Path, Path, str | None, str | None]:
-        grid = grid_for(options, frame)
+        grid = any_grid_for(options, frame)
         check_resolution(frame, grid)
         points = write_points(out / f"clusters.{frame.step:010d}.vtp", frame)
         unknown = None

@@ -10,7 +10,8 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 from numpy.typing import NDArray
 
-from ..analysis.grid import Grid, Maps
+from ..analysis.cells import Cells
+from ..analysis.grid import Maps
 from ..frame import WHOLE, Floats, Frame
 from .output import write_text
 from .reader import notes
@@ -97,33 +98,34 @@ def write_points(path: str | Path, frame: Frame) -> Path:
     return write_text(path, _file("PolyData", body))
 
 
-def write_image(path: str | Path, maps: Maps, grid: Grid, time: float) -> Path:
-    """Maps as cell data of a .vti image in the plane where it lies, one cell through the depth.
+def write_image(path: str | Path, maps: Maps, grid: Cells, time: float) -> Path:
+    """Maps as cell data of a .vti image where they lie, with one cell through the depth of a plane.
 
     Parameters
     ----------
     path : str or Path
         The file.
-    maps : mapping of str to ndarray, shape (nx, nz)
-        As :func:`clusterdem.maps_of` gives them; the velocities become one vector, with 0 across the plane.
-    grid : Grid
+    maps : mapping of str to ndarray, of the grid's shape
+        As :func:`clusterdem.maps_of` gives them; the velocities become one vector, with 0 across a plane.
+    grid : Grid or SpaceGrid
         The grid.
     time : float
         Time (s).
     """
+    axes = ["xyz".index(axis) for axis in grid.plane]
     cells, spacing = [1, 1, 1], list(grid.box.lengths)
-    for axis, count, width in zip(grid.axes, grid.shape, grid.spacing):
+    for axis, count, width in zip(axes, grid.shape, grid.spacing):
         cells[axis], spacing[axis] = count, width
 
     def in_order(values: Floats) -> Floats:
-        block = np.expand_dims(values if grid.axes[0] < grid.axes[1] else values.T, 3 - sum(grid.axes))
+        block = values.transpose(np.argsort(axes)).reshape(cells)
         return block.ravel(order="F")  # x runs fastest
 
     parts = [f"velocity_{axis}" for axis in grid.plane]
     data = "".join(_array(name, in_order(values)) for name, values in maps.items() if name not in parts)
     if all(part in maps for part in parts):
-        velocity = np.zeros((grid.nx * grid.nz, 3))
-        for axis, part in zip(grid.axes, parts):
+        velocity = np.zeros((grid.count, 3))
+        for axis, part in zip(axes, parts):
             velocity[:, axis] = in_order(maps[part])
         data += _array("velocity", velocity)
     extent = " ".join(f"0 {count}" for count in cells)

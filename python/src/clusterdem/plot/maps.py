@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -47,6 +47,12 @@ def fields_of(plane: str) -> list[Field]:
         ),
         Field("temperature", "granular temperature (m²/s²)", 1.0, "magma", clipped=True, note=ABOUT_ITS_MEAN),
     ]
+
+
+def error_of(field: Field) -> Field:
+    """How the standard error of an average is drawn."""
+    label = f"standard error of\n{field.label}"
+    return replace(field, label=label, colours="magma", from_zero=True, diverging=False, clipped=False, note="")
 
 
 def panels_of(count: int, most: int = MOST_PANELS) -> list[int]:

@@ -6,10 +6,13 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib import colormaps
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from ..analysis.nonuniformity import Profile, Uniformity
+from ..analysis.averages import TimeAverage
+from ..analysis.nonuniformity import Uniformity
+from ..analysis.profiles import Profile
 from ..frame import Floats
 from .sizes import time_axis, top
 from .style import COLOURS, WIDTH, new_figure, styled
@@ -58,28 +61,76 @@ def draw_uniformity(
     return figure
 
 
-def draw_lateral(profiles: Sequence[Profile], labels: Sequence[str]) -> Figure:
-    """Solids fraction, velocity and mean diameter across the width, a line per frame."""
-    panels: list[tuple[str, list[Floats]]] = [
-        ("solids fraction, true (%)", [100 * p.fraction for p in profiles if p.fraction is not None]),
-        (f"solids velocity $v_{profiles[0].plane[1]}$ (m/s)", [p.velocity for p in profiles if p.velocity is not None]),
-        ("mean diameter (µm)", [1e6 * p.diameter for p in profiles]),
+def _panels(profile: Profile) -> list[tuple[str, str, float]]:
+    """Name, label and factor to the label's unit of what is drawn of a profile."""
+    along = profile.along
+    return [
+        ("fraction", "solids fraction, true (%)", 100.0),
+        (f"velocity_{along}", f"solids velocity $v_{along}$ (m/s)", 1.0),
+        ("mean_diameter", "mean diameter (µm)", 1e6),
     ]
-    panels = [(name, lines) for name, lines in panels if len(lines) == len(profiles)]
+
+
+def _profile_axes(profile: Profile, known: Sequence[tuple[str, str, float]]) -> tuple[Figure, list[Axes]]:
+    figure = new_figure(WIDTH, 2.5)
+    axes = list(np.atleast_1d(figure.subplots(1, len(known))))
+    for axis, (_, label, _) in zip(axes, known):
+        axis.set_xlabel(f"{profile.across} (mm)")
+        axis.set_ylabel(label)
+        axis.margins(x=0)
+    return figure, axes
+
+
+def draw_profiles(profiles: Sequence[Profile], labels: Sequence[str]) -> Figure:
+    """Solids fraction, velocity and mean diameter of profiles, a line per frame."""
+    first = profiles[0]
+    known = [panel for panel in _panels(first) if any(np.isfinite(p.columns[panel[0]]).any() for p in profiles)]
     with styled():
-        figure = new_figure(WIDTH, 2.5)
-        axes = np.atleast_1d(figure.subplots(1, len(panels)))
-        for axis, (name, lines) in zip(axes, panels):
+        figure, axes = _profile_axes(first, known or _panels(first))
+        for axis, (name, _, factor) in zip(axes, known or _panels(first)):
+            lines = [factor * profile.columns[name] for profile in profiles]
             for values, profile, shade, label in zip(lines, profiles, _shades(len(profiles)), labels):
                 axis.stairs(values, 1e3 * profile.edges, color=shade, label=label, baseline=None, linewidth=1.1)
-            axis.set_xlabel(f"{profiles[0].plane[0]} (mm)")
-            axis.set_ylabel(name)
             if np.nanmin(np.concatenate(lines), initial=0.0) >= 0:
                 axis.set_ylim(bottom=0)
-            axis.margins(x=0)
         figure.legend(
             *axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=len(labels), frameon=False
         )
+    return figure
+
+
+def draw_average(means: Mapping[str, TimeAverage], profile: Profile, label: str) -> Figure:
+    """Solids fraction, velocity and mean diameter averaged over frames, with two standard errors to either side.
+
+    Parameters
+    ----------
+    means : mapping of str to TimeAverage, shape (B,)
+        The averages by the names of :attr:`Profile.columns`.
+    profile : Profile
+        One of the profiles, for its bins and axes.
+    label : str
+        Which frames they are over.
+    """
+    known = [panel for panel in _panels(profile) if np.isfinite(means[panel[0]].mean).any()]
+    edges = 1e3 * profile.edges
+    with styled():
+        figure, axes = _profile_axes(profile, known or _panels(profile))
+        for axis, (name, _, factor) in zip(axes, known):
+            mean, error = factor * means[name].mean, 2 * factor * means[name].error
+            axis.stairs(mean, edges, color=COLOURS[0], baseline=None, label=label, linewidth=1.1)
+            axis.stairs(
+                mean + error,
+                edges,
+                baseline=mean - error,
+                fill=True,
+                color=COLOURS[0],
+                alpha=0.25,
+                label="± 2 standard errors",
+            )
+            axis.set_xlim(edges[0], edges[-1])
+            if name == "fraction":
+                axis.set_ylim(bottom=0)
+        figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2, frameon=False)
     return figure
 
 

@@ -20,7 +20,7 @@ from ..io.series import event_rates
 from ..plot.maps import draw_maps, fields_of, panels_of
 from ..plot.scatter import draw_scatter
 from ..plot.sizes import draw_histograms, draw_sizes
-from ..plot.times import draw_lateral, draw_pair_correlation, draw_phases, draw_series, draw_uniformity
+from ..plot.times import draw_pair_correlation, draw_phases, draw_profiles, draw_series, draw_uniformity
 from ..published.cases import CASES
 from ..published.compare import FOOTNOTE, RULE, compare
 from ..published.compare import table as comparison_table
@@ -240,7 +240,7 @@ def profiles(story: Story) -> str:
     """Profiles across the width, and g(r)."""
     curves = [(s.correlation, s.label) for s in story.shown if s.correlation is not None]
     text = "<h2>Profiles</h2>\n" + html.picture(
-        draw_lateral([s.profile for s in story.shown], [s.label for s in story.shown]), "Profiles across the width."
+        draw_profiles([s.profile for s in story.shown], [s.label for s in story.shown]), "Profiles across the width."
     )
     if curves:
         text += html.picture(

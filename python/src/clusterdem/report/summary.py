@@ -11,7 +11,8 @@ from .. import observables
 from ..analysis.correlation import pair_correlation, reach_of
 from ..analysis.grid import Grid, Maps, maps_of, solids_fraction
 from ..analysis.ledger import Flow, Totals, totals_of
-from ..analysis.nonuniformity import Profile, Uniformity, lateral, measure
+from ..analysis.nonuniformity import Uniformity, measure
+from ..analysis.profiles import Profile, lateral
 from ..analysis.sizes import borders_of, edges_of, histogram
 from ..errors import ArgumentError, InputError
 from ..frame import Floats, Frame
