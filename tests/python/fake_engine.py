@@ -6,7 +6,7 @@ import stat
 import sys
 from pathlib import Path
 
-SOURCE = '''#!{python}
+SOURCE = """#!{python}
 import json, os, random, sys
 if "-var" not in sys.argv:
     print("LAMMPS (1 Apr 2026)")
@@ -15,7 +15,7 @@ given = {{a: b for v, a, b in zip(sys.argv, sys.argv[1:], sys.argv[2:]) if v == 
 shown = {{name: value for name, value in os.environ.items() if name.startswith(("LAMMPS_", "OMP_"))}}
 with open("{calls}", "a") as file:
     file.write(json.dumps([sys.argv, os.getcwd(), shown]) + "\\n")
-seed, gain = int(given["seed"]), float(given.get("gain", 1))
+seed, gain, other = int(given["seed"]), float(given.get("gain", 1)), float(given.get("other", 1))
 draw = random.Random(f"{{seed}}")
 names = "id x y z vx vy vz diameter mass charge"
 with open("flow.N.txt", "w") as table:
@@ -41,8 +41,8 @@ with open("log.lammps", "w") as log:
     log.write("LAMMPS (1 Apr 2026)\\n   Step          Temp          c_p[2]\\n")
     for frame in range(4):
         log.write(f"{{10 * frame * frame}} 0 {{100 * seed + frame}}\\n")
-    log.write(f"Loop time of {{10.0 * seed / gain}} on {{ranks}} procs for 90 steps with 29 atoms\\n\\n80.0% CPU use with {{ranks}} MPI tasks\\n")
-'''
+    log.write(f"Loop time of {{10.0 * seed / gain / other}} on {{ranks}} procs for 90 steps with 29 atoms\\n\\n80.0% CPU use with {{ranks}} MPI tasks\\n")
+"""
 
 
 def fake_engine(folder: Path, ranks: int = 1) -> Path:

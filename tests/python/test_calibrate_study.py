@@ -93,7 +93,11 @@ def test_what_a_study_says(read):
         ('name = "c"', 'name = "K_3"', ["parameter.name = 'K_3'", "twice"]),
         ('name = "c"', 'name = "a b"', ["parameter 'a b'.name = 'a b'", "must be a word"]),
         ('["gas", "rest"]', "[]", ["parameter 'begin'.choices = []", "one value or more"]),
-        ('["gas", "rest"]', '["gas", "rest"]\nlow = 1', ["parameter 'begin' (name, choices, low)", "either choices, or low"]),
+        (
+            '["gas", "rest"]',
+            '["gas", "rest"]\nlow = 1',
+            ["parameter 'begin' (name, choices, low)", "either choices, or low"],
+        ),
         ("{c}", "{d}", ["variables.law = 'trancong {d} 1.1'", "{d} is no parameter"]),
         ("case1.in", "case9.in", ["case9.in'", "no such file"]),
         ('"case1"\n', '"case7"\n', ["published = 'case7'", "must be among case1, case2, case3"]),
@@ -115,12 +119,21 @@ def test_bad_files_are_refused_with_word_value_and_rule(read, old, new, said):
 @pytest.mark.parametrize(
     ("target", "said"),
     [
-        ('quantity = "weight"\ntime = 1\nvalue = 1', ["case 'mine'.target.quantity = 'weight'", "the observables are count, clusters"]),
+        (
+            'quantity = "weight"\ntime = 1\nvalue = 1',
+            ["case 'mine'.target.quantity = 'weight'", "the observables are count, clusters"],
+        ),
         ('quantity = "mean_diameter"\ntime = 1', ["needs one of value, below, above"]),
         ('quantity = "mean_diameter"\ntime = 0\nvalue = 1', ["case 'mine'.target 'mean_diameter'.time = 0", "above 0"]),
         ('quantity = "mean_diameter"\ntime = 1\nvalue = -1', ["target 'mean_diameter'.value = -1", "above 0"]),
-        ('quantity = "size_classes"\ntime = 1\nvalue = 1\npart = "big"', ["target 'size_classes'.part = 'big'", "<300"]),
-        ('quantity = "mean_diameter"\ntime = 1\nvalue = 1\npart = "1"', ["target 'mean_diameter'.part = '1'", "single number"]),
+        (
+            'quantity = "size_classes"\ntime = 1\nvalue = 1\npart = "big"',
+            ["target 'size_classes'.part = 'big'", "<300"],
+        ),
+        (
+            'quantity = "mean_diameter"\ntime = 1\nvalue = 1\npart = "1"',
+            ["target 'mean_diameter'.part = '1'", "single number"],
+        ),
         ('quantity = "clusters"\ntime = 1\nvalue = 1', ["belongs to a mass of solids", "solids = kg"]),
     ],
 )

@@ -107,7 +107,10 @@ def test_settings_are_as_many_as_counted_and_all_differ(tmp_path_factory, sizes,
         (('name = "contact law"', 'name = "dt"'), ["axis = ['dt', 'every', 'dt']", "all differ"]),
         (('name = "contact law"', ""), ["axis 1.name is missing: must be a text"]),
         (('{name = "lean", ', "{"), ["axis 'contact law'.settings 2.name is missing"]),
-        (("settings = [", "setings = ["), ["axis 'contact law': unknown key 'setings' (did you mean 'settings'?): the keys are name, settings"]),
+        (
+            ("settings = [", "setings = ["),
+            ["axis 'contact law': unknown key 'setings' (did you mean 'settings'?): the keys are name, settings"],
+        ),
     ],
     ids=str,
 )
@@ -129,7 +132,10 @@ def test_refusals_name_file_key_value_and_rule(study, change, words):
         ("ranks = 0", ["ranks = 0", "1 or more"]),
         ("ranks = true", ["ranks = True", "whole number"]),
         ('combine = "all"', ["combine = 'all'", "'product'"]),
-        ('observables = ["colour"]', ["observables = 'colour': unknown observable 'colour': the observables are", "clusters, mass"]),
+        (
+            'observables = ["colour"]',
+            ["observables = 'colour': unknown observable 'colour': the observables are", "clusters, mass"],
+        ),
         ("observables = []", ["observables = []", "list of names"]),
         ("observables = [[1]]", ["observables 1 = [1]", "list of names"]),
         ("classes = [3, 2]", ["classes = [3, 2]", "ascending"]),

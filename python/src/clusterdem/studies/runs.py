@@ -362,16 +362,16 @@ def _execute(run: StudyRun, workers: _Workers) -> Failure | None:
             return None
         except InputError as error:
             reason = str(error)
+    said = (part / "screen.txt").read_text(errors="replace").splitlines()
+    told = [*said[-TAIL:], f"all it said: {failed / 'screen.txt'}"]
     if run.limit and code in (-signal.SIGXCPU, 128 + signal.SIGXCPU):
         reason = f"took more than {run.limit} core-seconds, the limit"
         write_text(part / OVERRAN, f"{run.limit}\n")
+    elif code != 0 and run.launcher and not (part / LOG).exists():
+        reason = f"{shlex.join(run.launcher)} ended with status {code} before LAMMPS began: {' '.join(said[-1:])}"
+        told = []
     os.replace(part, failed)
-    if code != 0 and run.launcher and not (failed / LOG).exists():
-        said = (failed / "screen.txt").read_text(errors="replace").strip().splitlines()[-1:]
-        began = f"{shlex.join(run.launcher)} ended with status {code} before LAMMPS began"
-        return Failure(run, ": ".join([began, *said]))
-    tail = (failed / "screen.txt").read_text(errors="replace").splitlines()[-TAIL:]
-    return Failure(run, "\n".join([reason, *tail, f"all it said: {failed / 'screen.txt'}"]))
+    return Failure(run, "\n".join([reason, *told]))
 
 
 def _keep(folder: Path, run: StudyRun) -> None:
