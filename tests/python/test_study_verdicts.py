@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 from dataclasses import replace
 from pathlib import Path
 
@@ -24,6 +25,7 @@ from clusterdem.studies.trade.answer import as_input
 from clusterdem.studies.trade.answer import in_words as answer
 from clusterdem.studies.trade.errors import Error
 from clusterdem.studies.trade.report import as_markdown as trade_report
+from clusterdem.studies.trade.report import percent, seconds, write_table
 from clusterdem.studies.trade.study import Study
 from clusterdem.studies.trade.weigh import Weighed, cheapest, weigh
 
@@ -114,6 +116,34 @@ def test_the_report_of_a_trade():
     assert "\nThe answer.\n" in text and text.count("lost atoms") == 4 and "none, seed 9\n$ lmp -in 'a b'\n" in text
     text = trade_report(study_of(ranks=2, variables={"tend": "1", "nx": "3"}), ENGINE, [REFERENCE, inside], "")
     assert ", 2 ranks, 3 seeds; all runs with tend=1 nx=3." in text and "Runs that failed" not in text
+
+
+@pytest.mark.parametrize(
+    "share, text",
+    [(0.0504, "5"), (0.1234, "12"), (0.99449, "99"), (1.0, "100"), (1.234, "123"), (np.inf, "∞"), (np.nan, "–")],
+)
+def test_shares_in_percent(share, text):
+    assert percent(share) == text
+
+
+@pytest.mark.parametrize("value, text", [(0.01234, "0.0123"), (999.4, "999"), (1234.4, "1234"), (np.inf, "–")])
+def test_seconds_for_reading(value, text):
+    assert seconds(value) == text
+
+
+def test_the_table_of_a_trade(tmp_path):
+    """Every column beside its own number; what cannot be compared is empty."""
+    other = weighed("2", [4.0, 5.0, 6.5], of(map=(0.31, 0.02, 0.3), clusters=None), failures=1)
+    other.costs[2] = Cost(7.0, 5.0)
+    with open(write_table(tmp_path / "t.csv", [REFERENCE, other], ("map", "clusters"))) as file:
+        first, second = csv.DictReader(file)
+    assert second == {
+        "number": "1", "axis": "dt", "setting": "2", "variables": "dt=2 law=a b", "core_seconds": "5.0", "wall": "6.5",
+        "speedup": "2.2", "finished": "3", "failed": "1",
+        "map_error": "0.31", "map_uncertainty": "0.02", "map_spread": "0.3", "map_inside": "False",
+        "clusters_error": "", "clusters_uncertainty": "", "clusters_spread": "", "clusters_inside": "",
+    }  # fmt: skip
+    assert (first["speedup"], first["map_inside"], first["clusters_spread"]) == ("1.0", "True", "0.02")
 
 
 def test_the_answer_as_an_input():
