@@ -65,7 +65,7 @@ def test_of_equals_the_one_with_fewest_changes():
 
 
 def test_what_failed_or_cannot_be_compared_is_no_answer():
-    run = StudyRun(REFERENCE.setting, 1, "key", Path("runs/key"), ("lmp",), None, None)
+    run = StudyRun(REFERENCE.setting, 1, "key", Path("runs/key"), (), ("lmp",), 1, None, None)
     failed, other_box = (
         weighed("dt", [1.0, 1.0], 0.0, (Failure(run, "lost"),)),
         weighed("height", [1.0, 1.0, 1.0], None),

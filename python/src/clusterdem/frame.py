@@ -83,6 +83,8 @@ class Frame:
         Columns of words, such as ``element``.
     primary : Primary, optional
         The primary particles, where they are given or the run's log tells them.
+    run : mapping of str to float
+        Numbers of the whole run at this step (:meth:`clusterdem.Run.numbers_at`), where they have been looked up.
 
     Examples
     --------
@@ -103,6 +105,7 @@ class Frame:
     first_row: int = field(default=1, compare=False)
     texts: Mapping[str, Words] = field(default_factory=dict)
     primary: Primary | None = None
+    run: Mapping[str, float] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.columns["mass"])

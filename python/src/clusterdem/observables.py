@@ -13,6 +13,7 @@ A quantity of one's own, known to every command once its file is named (``observ
 
 from __future__ import annotations
 
+import hashlib
 import importlib.util
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -94,6 +95,10 @@ class Observable:
         Whether ratios count between two values, or differences (in points of percent).
     columns : tuple of str
         What it needs besides x, z, diameter, mass and what tells the primary particles.
+    of_run : tuple of str
+        What it needs of ``Frame.run``; NaN where a frame is read without its run.
+    source : str
+        What else its numbers depend on, where it is one's own: its expression, or a hash of the file that registers it.
     """
 
     name: str
@@ -103,6 +108,8 @@ class Observable:
     parts: Callable[[How], tuple[str, ...]] = _one
     relative: bool = True
     columns: tuple[str, ...] = ()
+    of_run: tuple[str, ...] = ()
+    source: str = ""
 
     def __call__(self, frame: Frame, how: How) -> Floats:
         """Its numbers in one frame, shape (M,)."""
@@ -116,6 +123,10 @@ class Observable:
 
 def _single(value: Callable[[Frame], float]) -> Callable[[Frame, How], Floats]:
     return lambda frame, how: np.array([value(frame)])
+
+
+def _of_run(name: str) -> Callable[[Frame, How], Floats]:
+    return lambda frame, how: np.array([frame.run.get(name, np.nan)])
 
 
 def _per_mass(frame: Frame) -> float:
@@ -186,12 +197,38 @@ def load(path: str | Path) -> None:
     if spec is None or spec.loader is None:
         raise InputError(path, "must be a Python file (.py) that registers observables")
     module = importlib.util.module_from_spec(spec)
+    before = dict(REGISTRY)
     try:
         spec.loader.exec_module(module)
     except OSError as error:
         raise InputError(path, f"cannot be read: {error.strerror}") from error
     except Exception as error:  # whatever a user's file does
         raise InputError(path, f"ended with {type(error).__name__}: {error}") from error
+    source = hashlib.sha256(Path(path).read_bytes()).hexdigest()
+    for name, own in REGISTRY.items():
+        if before.get(name) is not own:
+            REGISTRY[name] = replace(own, source=source)
+
+
+def check_frame(frame: Frame, names: Sequence[str]) -> None:
+    """Refuse a frame that lacks what observables need.
+
+    Raises
+    ------
+    InputError
+        With the observable, what it needs and what there is.
+    """
+    for name in names:
+        for what, needed, there in (
+            ("column", find(name).columns, frame.columns),
+            ("number of the run", find(name).of_run, frame.run),
+        ):
+            for word in needed:
+                if word not in there:
+                    known = ", ".join(there) or "none"
+                    raise InputError(
+                        frame.path, f"no {what} {word!r}, which observable {name!r} needs; there are {known}"
+                    )
 
 
 def columns_of(names: Sequence[str]) -> tuple[str, ...]:
@@ -244,5 +281,7 @@ for _observable in (
         lambda frame, how: strips(frame, how.strips, how.plane, False).diameter,
         _numbered_strips,
     ),
+    Observable("timestep", "time step", "s", _of_run("dt"), of_run=("dt",)),
+    Observable("core_seconds", "core-seconds", "s", _of_run("core_seconds"), of_run=("core_seconds",)),
 ):
     register(_observable)

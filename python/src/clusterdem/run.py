@@ -203,9 +203,43 @@ class Run:
 
     @cached_property
     def log(self) -> EngineLog:
-        """The engine's log; empty where it is not there."""
-        path = self.path / f"{self.name}.log"
-        return read_log(path) if path.is_file() else EngineLog()
+        """The engine's log, NAME.log or log.lammps; empty where neither is there."""
+        for name in (f"{self.name}.log", "log.lammps"):
+            if (self.path / name).is_file():
+                return read_log(self.path / name)
+        return EngineLog()
+
+    @cached_property
+    def time_step(self) -> tuple[float, float] | None:
+        """Smallest and largest time step (s); None where nothing tells.
+
+        Of the log's column ``Dt``; else means over the intervals between the table's rows, else between frames.
+        """
+        tables = [table["Dt"] for table in self.log.thermo if "Dt" in table]
+        if not tables and self.series is not None and {"step", "time"} <= set(self.series):
+            tables = [_mean_steps(self.series["step"], self.series["time"])]
+        if not tables or not sum(map(len, tables)):
+            tables = [_mean_steps(np.array(self.steps, dtype=float), self.times)]
+        every = np.concatenate(tables)
+        every = every[every > 0]
+        return (float(every.min()), float(every.max())) if len(every) else None
+
+    def numbers_at(self, step: int) -> dict[str, float]:
+        """Numbers of the whole run at a step: columns of the table over time and of the thermo output, and two more.
+
+        ``dt`` is the mean time step (s) since the frame before, NaN in the first; ``core_seconds`` is what the whole run took, by the log.
+        """
+        found = self.log.at(step)
+        if self.series is not None and "step" in self.series:
+            for row in np.flatnonzero(self.series["step"] == step)[-1:]:
+                found |= {name: float(values[row]) for name, values in self.series.items()}
+        number = self.steps.index(step) if step in self.steps else 0
+        if number:
+            before, here = self.heads[number - 1], self.heads[number]
+            found["dt"] = (here.time - before.time) / (here.step - before.step)
+        else:
+            found["dt"] = float("nan")
+        return found | {"core_seconds": self.log.core_seconds if self.log.steps else float("nan")}
 
     @property
     def command(self) -> str | None:
@@ -258,3 +292,9 @@ class Run:
         from .io.universe import run_universe
 
         return run_universe(list(self.frames()), shift)
+
+
+def _mean_steps(steps: Floats, times: Floats) -> Floats:
+    """Mean time step of every interval between rows that steps lie between."""
+    moved = np.diff(steps) > 0
+    return np.diff(times)[moved] / np.diff(steps)[moved]

@@ -8,52 +8,36 @@ with its uncertainty and what the data cannot tell apart; NAME.csv, the trials; 
 from __future__ import annotations
 
 import argparse
-import os
-from pathlib import Path
 
-from ..errors import ArgumentError
 from ..plot.style import save
 from ..studies.calibrate.figure import draw_fit
 from ..studies.calibrate.fit import carry_out
 from ..studies.calibrate.model import EngineModel
 from ..studies.calibrate.report import write_report, write_trials
+from ..studies.calibrate.schema import SCHEMA
 from ..studies.calibrate.study import read_calibration
 from ..studies.engine import find_engine
 from ..studies.runs import only_one
+from ..studies.template import CALIBRATE, filled
 from .common import tell
+from .studying import add_study, check_options, jobs_of, tell_missing
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("study", type=Path, metavar="STUDY.toml", help="the study file")
-    parser.add_argument(
-        "--out",
-        type=Path,
-        default=Path("calibrate"),
-        metavar="DIR",
-        help="folder for results and runs (default calibrate)",
-    )
-    parser.add_argument("--jobs", type=int, metavar="N", help="runs at a time (default: as many as the cores hold)")
-    parser.add_argument("--lmp", metavar="PATH", help="LAMMPS (default: CLUSTERDEM_LMP, or lmp beside this command)")
+    add_study(parser, "calibrate", "height 0.1", SCHEMA, lambda: filled(CALIBRATE))
     parser.add_argument("--trials", type=int, metavar="N", help="trials of the search, in place of the study's")
-    parser.add_argument(
-        "--var",
-        nargs=2,
-        action="append",
-        default=[],
-        metavar=("NAME", "VALUE"),
-        help="a variable of every run, over the study's: --var height 0.1 for a short trial",
-    )
 
 
 def run(options: argparse.Namespace) -> None:
-    for name in ("jobs", "trials"):
-        if getattr(options, name) is not None and getattr(options, name) < 1:
-            raise ArgumentError(name, "must be 1 or more")
-    study = read_calibration(options.study, dict(options.var), options.trials)
-    engine = find_engine(options.lmp)
-    ranks = study.cases[0].ranks
-    jobs = options.jobs or max(1, len(os.sched_getaffinity(0)) // ranks)
-    model = EngineModel(study, engine, (options.out / "runs").absolute(), jobs)
+    check_options(options, "trials")
+    study = read_calibration(
+        options.study, dict(options.var), options.trials, ranks=options.ranks, launcher=options.launcher
+    )
+    engine, jobs = find_engine(options.lmp), jobs_of(options, study.cases[0].ranks)
+    model = EngineModel(study, engine, (options.out / "runs").absolute(), jobs, options.dry_run)
+    if options.dry_run:
+        tell_missing(lambda: carry_out(study, model), "; which ones follow depends on what these give")
+        return
     with only_one(options.out / "runs"):
         fit = carry_out(study, model)
     stem = options.out / study.path.stem

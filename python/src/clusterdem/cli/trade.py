@@ -10,64 +10,50 @@ the cheap settings are then combined, axis by axis, as far as the tolerance hold
 from __future__ import annotations
 
 import argparse
-import os
 import sys
-from pathlib import Path
 
-from ..errors import ArgumentError, InputError
+from ..errors import InputError
 from ..plot.style import save
 from ..studies.engine import find_engine
 from ..studies.runs import only_one
+from ..studies.template import TRADE, filled
 from ..studies.trade.answer import in_words, write_answer
 from ..studies.trade.campaign import Campaign
 from ..studies.trade.figure import draw_pareto
 from ..studies.trade.report import write_report, write_table
+from ..studies.trade.schema import SCHEMA
 from ..studies.trade.study import read_study
 from ..studies.trade.weigh import cheapest
 from .common import positive, tell
+from .studying import add_study, check_options, jobs_of, tell_missing
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("study", type=Path, metavar="STUDY.toml", help="the study file")
+    add_study(parser, "trade", "tend 0.002", SCHEMA, lambda: filled(TRADE))
     parser.add_argument(
         "--tolerance", type=positive, metavar="SHARE", help="name the cheapest setting within this error, such as 0.05"
     )
-    parser.add_argument(
-        "--out", type=Path, default=Path("trade"), metavar="DIR", help="folder for results and runs (default trade)"
-    )
-    parser.add_argument("--jobs", type=int, metavar="N", help="runs at a time (default: as many as the cores hold)")
-    parser.add_argument("--lmp", metavar="PATH", help="LAMMPS (default: CLUSTERDEM_LMP, or lmp beside this command)")
-    parser.add_argument(
-        "--var",
-        nargs=2,
-        action="append",
-        default=[],
-        metavar=("NAME", "VALUE"),
-        help="a variable of every run, over the study's: --var tend 0.002 for a short trial",
-    )
     parser.add_argument("--seeds", type=int, metavar="N", help="seeds 1 to N in place of the study's")
-    parser.add_argument("--dry-run", action="store_true", help="say what would be run, and run nothing")
 
 
 def run(options: argparse.Namespace) -> None:
-    if options.jobs is not None and options.jobs < 1:
-        raise ArgumentError("jobs", "must be 1 or more")
-    study, engine, out = (
-        read_study(options.study, dict(options.var), options.seeds),
-        find_engine(options.lmp),
-        options.out,
+    check_options(options)
+    study = read_study(
+        options.study, dict(options.var), seeds=options.seeds, ranks=options.ranks, launcher=options.launcher
     )
-    jobs = options.jobs or max(1, len(os.sched_getaffinity(0)) // study.ranks)
-    campaign = Campaign(study, engine, (out / "runs").absolute(), jobs)
-    planned = campaign.planned()
-    if options.dry_run:
-        for one in planned:
-            print(f"{'done   ' if one.done else 'missing'}  seed {one.seed}  {one.setting.axis}: {one.setting.name}")
-        return
-    with only_one(out / "runs"):
-        campaign.carry_out(planned)
+    engine, out = find_engine(options.lmp), options.out
+    campaign = Campaign(study, engine, (out / "runs").absolute(), jobs_of(options, study.ranks), options.dry_run)
+
+    def carry_out() -> None:
+        campaign.carry_out(campaign.planned())
         if options.tolerance and not study.product:
             campaign.combine(options.tolerance)
+
+    if options.dry_run:
+        tell_missing(carry_out, "; with a tolerance, settings that hold alone are run together after these")
+        return
+    with only_one(out / "runs"):
+        carry_out()
     weighed, failures = campaign.weighed, campaign.failures
     stem, words = out / study.path.stem, ""
     if options.tolerance:

@@ -6,7 +6,10 @@ import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import numpy as np
+
 from ..errors import InputError
+from ..frame import Floats
 
 PHASE = re.compile(r"^(\w+)\s*\|[^|]*\|([^|]*)\|[^|]*\|[^|]*\|[^|]*$")
 LOOP = re.compile(r"^Loop time of ([0-9.eE+-]+) on (\d+) procs for (\d+) steps with (\d+) atoms")
@@ -36,6 +39,8 @@ class EngineLog:
         Variables of the input, as they are defined there: the command line may have set them before.
     filled : dict of str to str
         Values that really ran, where the log echoes a line before and after a variable is filled in.
+    thermo : list of dict of str to ndarray, shape (T,)
+        Thermo output by column, a table for every run of the log; half-written rows are left out.
     """
 
     version: str = ""
@@ -49,6 +54,15 @@ class EngineLog:
     script: list[str] = field(default_factory=list)
     variables: dict[str, str] = field(default_factory=dict)
     filled: dict[str, str] = field(default_factory=dict)
+    thermo: list[dict[str, Floats]] = field(default_factory=list)
+
+    def at(self, step: int) -> dict[str, float]:
+        """The thermo output at a step; that of the last run that printed it."""
+        found: dict[str, float] = {}
+        for table in self.thermo:
+            for row in np.flatnonzero(table["Step"] == step):
+                found |= {name: float(values[row]) for name, values in table.items()}
+        return found
 
 
 def read_log(path: str | Path) -> EngineLog:
@@ -66,6 +80,14 @@ def read_log(path: str | Path) -> EngineLog:
     log = EngineLog()
     in_table = False
     last = 0.0  # core-seconds of the latest loop
+    names: list[str] = []
+    rows: list[list[float]] = []
+
+    def end_table() -> None:
+        if rows:
+            log.thermo.append(dict(zip(names, np.array(rows).T)))
+        rows.clear()
+
     lines = text.splitlines()
     log.filled = _filled(lines)
     for line in lines:
@@ -90,13 +112,24 @@ def read_log(path: str | Path) -> EngineLog:
         elif line.startswith(("WARNING", "ERROR")):
             log.warnings.append(line.strip())
         elif words[:1] == ["Step"]:
-            in_table = True
+            end_table()
+            in_table, names = True, words
+        elif in_table and len(words) == len(names) and (row := _row(words)) is not None:
+            rows.append(row)
         elif not in_table and (variable := VARIABLE.match(line)):
             log.variables[variable[1]] = variable[2]
             log.script.append(line.rstrip())
         elif not in_table and re.match(r"[a-z_]+(\s|$)", line):
             log.script.append(line.rstrip())
+    end_table()
     return log
+
+
+def _row(words: list[str]) -> list[float] | None:
+    try:
+        return [float(word) for word in words]
+    except ValueError:
+        return None
 
 
 REFERENCE = re.compile(r"\$\{(\w+)\}|\$([A-Za-z])")

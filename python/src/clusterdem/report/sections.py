@@ -315,6 +315,13 @@ def scene(story: Story) -> str:
         rows.append(["seed", run.seed])
     if run.primary is not None:
         rows.append(["primary particles", run.primary.words.removeprefix("primary particles of ")])
+    if run.time_step is not None:
+        low, high = (f"{value:.3g}" for value in run.time_step)
+        rows.append(["time step", f"{low} s" if low == high else f"{low} to {high} s"])
+    if log.loop:
+        use = log.core_seconds / (log.loop * log.ranks)
+        about = f"{log.loop:.3g} s in the loop × {log.ranks} rank{'s' if log.ranks != 1 else ''} × {use:.0%} CPU use"
+        rows.append(["core-seconds", f"{log.core_seconds:.3g} ({about})"])
     if run.command is not None:
         rows.append(["command", run.command])
     text = "<h2>Scene</h2>\n" + html.table(rows)

@@ -15,23 +15,31 @@ import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Protocol
 
+import numpy as np
 from tqdm import tqdm
 
-from ..errors import InputError
+from ..errors import ArgumentError, InputError
+from ..frame import Frame
 from ..io.enginelog import read_log
 from ..io.output import write_text
+from ..observables import check_frame, columns_of, find
 from ..run import Run
 from .engine import Engine
-from .file import OWN_VARIABLES, Variables
+from .file import Variables
+from .launch import launch, pasted
+from .schema import OWN_VARIABLES
 from .script import read_script
 
 TAIL = 12
 """Lines of a failed run's output that are shown."""
 
+
+LOG = "log.lammps"
+"""A run's log, in its folder."""
 
 OVERRAN = "overran"
 """Marks a run that took longer than its limit, which it holds."""
@@ -72,6 +80,27 @@ class Keeping:
     keep: Callable[[Run], None]
 
 
+def frames_of(found: Run, names: Sequence[str]) -> list[Frame]:
+    """A run's frames with what observables need, for what is kept of it.
+
+    Raises
+    ------
+    InputError
+        If there is none after the start, if they hold no time, or not what an observable needs.
+    """
+    of_run = any(find(name).of_run for name in names)
+    frames = list(found.frames(("y", *columns_of(names))))
+    if of_run:
+        frames = [replace(frame, run=found.numbers_at(frame.step)) for frame in frames]
+    if len(frames) < 2:
+        raise InputError(found.path, "holds no frame after the start")
+    if any(np.isnan(frame.time) for frame in frames):
+        raise InputError(found.dumps[0], "frames hold no time, by which runs are compared: dump_modify … time yes")
+    for frame in frames[1:]:
+        check_frame(frame, names)
+    return frames
+
+
 class Task(Protocol):
     """What a study's runs have in common."""
 
@@ -91,6 +120,10 @@ class Task(Protocol):
     def ranks(self) -> int:
         """MPI ranks of a run."""
 
+    @property
+    def launcher(self) -> str | None:
+        """What starts a run, as :mod:`clusterdem.studies.launch` has it."""
+
 
 @dataclass(frozen=True)
 class StudyRun:
@@ -102,8 +135,12 @@ class StudyRun:
         Hash of the scripts and data files it reads, its variables, its ranks and the engine.
     folder : Path
         Where its results are once it is done.
+    launcher : tuple of str
+        What starts it; empty where the engine starts by itself.
     command : tuple of str
-        How it is started.
+        How it is started, the launcher's words first.
+    ranks : int
+        MPI ranks.
     engine : Engine
         What runs it.
     keeping : Keeping
@@ -116,7 +153,9 @@ class StudyRun:
     seed: int
     key: str
     folder: Path
+    launcher: tuple[str, ...]
     command: tuple[str, ...]
+    ranks: int
     engine: Engine
     keeping: Keeping
     limit: int | None = None
@@ -125,6 +164,16 @@ class StudyRun:
     def done(self) -> bool:
         """Whether its results are there."""
         return (self.folder / "cost.json").is_file()
+
+    @property
+    def part_folder(self) -> Path:
+        """Where it runs."""
+        return self.folder.with_name(f"{self.key}.part")
+
+    @property
+    def line(self) -> str:
+        """The line for a shell that does the same."""
+        return pasted(self.command, self.part_folder)
 
     @property
     def failed_folder(self) -> Path:
@@ -190,13 +239,14 @@ def plan(
         for seed in study.seeds:
             decides = [keeping.format, engine.identity, study.ranks, sorted(setting.variables.items()), seed, files]
             key = hashlib.sha256(json.dumps(decides).encode()).hexdigest()[:24]
-            launch = ["mpirun", "-np", str(study.ranks)] if study.ranks > 1 else []
+            launcher = launch(study.launcher, study.ranks, folder / f"{key}.part")
             bounded = ["prlimit", f"--cpu={limit}:{limit + 1}", "--core=0"] if limit else []
-            command = [*bounded, *launch, engine.path, "-in", str(study.input), "-log", "log.lammps"]
+            command = [*launcher, *bounded, engine.path, "-in", str(study.input), "-log", LOG]
             own = dict(zip(OWN_VARIABLES, (str(seed), str(inputs), ".")))
             for name, value in {**setting.variables, **own}.items():
                 command += ["-var", name, value]
-            runs.append(StudyRun(setting, seed, key, folder / key, tuple(command), engine, keeping, limit))
+            words, place = tuple(command), folder / key
+            runs.append(StudyRun(setting, seed, key, place, launcher, words, study.ranks, engine, keeping, limit))
     return runs
 
 
@@ -246,13 +296,33 @@ class _Workers:
                 process.terminate()
 
 
-def perform(runs: Sequence[StudyRun], jobs: int, quiet: bool = False) -> dict[str, Failure]:
+class Missing(Exception):
+    """Runs that would have to be done now, of a study that is only looked at."""
+
+    def __init__(self, runs: Sequence[StudyRun], wanted: int) -> None:
+        super().__init__(f"{len(runs)} of {wanted} runs are missing")
+        self.runs = runs
+
+
+def perform(runs: Sequence[StudyRun], jobs: int, quiet: bool = False, dry: bool = False) -> dict[str, Failure]:
     """Do the runs that are not done, at most ``jobs`` at a time; the failures by key.
 
     An interrupted run leaves nothing that counts; finished ones are not run again.
+
+    Raises
+    ------
+    Missing
+        If ``dry`` and a run is not done.
+    ArgumentError
+        If what starts the runs is no executable.
     """
     failures = {run.key: Failure(run, "took too long before") for run in runs if not run.done and run.overran}
     missing = list({run.key: run for run in runs if not run.done and run.key not in failures}.values())
+    if dry and missing:
+        raise Missing(missing, len({run.key for run in runs}))
+    for word in {run.launcher[0] for run in missing if run.launcher}:
+        if shutil.which(word) is None:
+            raise ArgumentError("launcher", f"{word} is no executable")
     workers = _Workers()
     hidden = quiet or not missing or not sys.stderr.isatty()
     bar = tqdm(total=len(missing), unit="run", disable=hidden, leave=False, file=sys.stderr)
@@ -274,7 +344,7 @@ def perform(runs: Sequence[StudyRun], jobs: int, quiet: bool = False) -> dict[st
 
 
 def _execute(run: StudyRun, workers: _Workers) -> Failure | None:
-    part, failed = run.folder.with_name(f"{run.key}.part"), run.failed_folder
+    part, failed = run.part_folder, run.failed_folder
     for folder in (part, failed):
         shutil.rmtree(folder, ignore_errors=True)
     part.mkdir(parents=True)
@@ -287,26 +357,33 @@ def _execute(run: StudyRun, workers: _Workers) -> Failure | None:
                 raise InputError(
                     run.engine.path, "it or a plugin was built anew during the study: start the study again"
                 )
-            _keep(part, run.keeping)
+            _keep(part, run)
             os.replace(part, run.folder)
             return None
         except InputError as error:
             reason = str(error)
+    said = (part / "screen.txt").read_text(errors="replace").splitlines()
+    told = [*said[-TAIL:], f"all it said: {failed / 'screen.txt'}"]
     if run.limit and code in (-signal.SIGXCPU, 128 + signal.SIGXCPU):
         reason = f"took more than {run.limit} core-seconds, the limit"
         write_text(part / OVERRAN, f"{run.limit}\n")
+    elif code != 0 and run.launcher and not (part / LOG).exists():
+        reason = f"{shlex.join(run.launcher)} ended with status {code} before LAMMPS began: {' '.join(said[-1:])}"
+        told = []
     os.replace(part, failed)
-    tail = (failed / "screen.txt").read_text(errors="replace").splitlines()[-TAIL:]
-    return Failure(run, "\n".join([reason, *tail, f"all it said: {failed / 'screen.txt'}"]))
+    return Failure(run, "\n".join([reason, *told]))
 
 
-def _keep(folder: Path, keeping: Keeping) -> None:
+def _keep(folder: Path, run: StudyRun) -> None:
     """Keep of a run's dumps what the study needs, note its cost, and drop what is large."""
-    log = read_log(folder / "log.lammps")
+    log = read_log(folder / LOG)
     if not log.steps:
-        raise InputError(folder / "log.lammps", "holds no time loop: the script must run at least one step")
+        raise InputError(folder / LOG, "holds no time loop: the script must run at least one step")
+    if log.ranks != run.ranks:
+        rule = f"{log.ranks} ranks ran, and not {run.ranks}, as {shlex.join(run.launcher) or 'the study'} should have started"
+        raise InputError(folder / LOG, rule)
     found = Run(folder)
-    keeping.keep(found)
+    run.keeping.keep(found)
     for file in [*found.dumps, *found.maps, *folder.glob("*.restart")]:
         file.unlink()
     write_text(folder / "cost.json", json.dumps({"wall": log.loop, "core_seconds": log.core_seconds}) + "\n")

@@ -13,10 +13,10 @@ import numpy as np
 from ...errors import InputError
 from ...frame import Floats
 from ...io.output import write_text
-from ...observables import columns_of
+from ...observables import find
 from ...run import Run
 from ..engine import Engine
-from ..runs import Failure, Keeping, Setting, StudyRun, perform, plan
+from ..runs import Failure, Keeping, Setting, StudyRun, frames_of, perform, plan
 from .parameters import Point, described, fill
 from .study import Calibration, Case, Stage
 from .targets import KEPT, numbers_of, read_off, without_frame
@@ -40,15 +40,12 @@ def keeping_of(study: Calibration) -> Keeping:
     names = (*KEPT, *sorted(own))
 
     def keep(found: Run) -> None:
-        frames = list(found.frames(("y", *columns_of(names))))
-        if len(frames) < 2:
-            raise InputError(found.path, "holds no frame after the start")
-        if any(np.isnan(frame.time) for frame in frames):
-            raise InputError(found.dumps[0], "frames hold no time, which targets have: dump_modify … time yes")
+        frames = frames_of(found, names)
         write_text(found.path / NUMBERS, json.dumps(numbers_of(frames, names, study.how)) + "\n")
 
     borders = " ".join(f"{border:g}" for border in study.how.borders)
-    return Keeping(f"numbers 2: {' '.join(names)}; classes {borders}; plane {study.how.plane}", keep)
+    sources = "".join(f"; {name} = {find(name).source}" for name in names if find(name).source)
+    return Keeping(f"numbers 2: {' '.join(names)}; classes {borders}; plane {study.how.plane}{sources}", keep)
 
 
 @dataclass
@@ -65,6 +62,8 @@ class EngineModel:
         Where runs are kept.
     jobs : int
         Runs at a time.
+    dry : bool
+        Whether missing runs are only told, by :class:`clusterdem.studies.runs.Missing`.
     failures : dict of str to Failure
         Runs that failed so far, by key.
     used : set of str
@@ -75,6 +74,7 @@ class EngineModel:
     engine: Engine
     folder: Path
     jobs: int
+    dry: bool = False
     failures: dict[str, Failure] = field(default_factory=dict)
     used: set[str] = field(default_factory=set)
 
@@ -83,7 +83,7 @@ class EngineModel:
         runs = [[self.planned(case, point, seed, stage) for case in self.study.cases] for point, seed in wanted]
         every = [run for row in runs for run in row]
         self.used |= {run.key for run in every}
-        self.failures |= perform(every, self.jobs, quiet=True)
+        self.failures |= perform(every, self.jobs, quiet=True, dry=self.dry)
         return [np.concatenate([self.read(case, run) for case, run in zip(self.study.cases, row)]) for row in runs]
 
     def planned(self, case: Case, point: Point, seed: int, stage: Stage) -> StudyRun:

@@ -15,7 +15,8 @@ from .fit import Fit
 from .identify import PRIOR, combination, in_words
 from .model import EngineModel
 from .parameters import Choice, Real, fill, text_of
-from .targets import BELOW, EQUAL, Target
+from .schema import BELOW, EQUAL
+from .targets import Target
 
 MOST_FAILURES = 5
 """Failed runs that are quoted."""

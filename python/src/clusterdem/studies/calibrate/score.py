@@ -9,8 +9,9 @@ import numpy as np
 
 from ...frame import Floats
 from ...observables import find
+from .schema import EQUAL
 from .study import Calibration
-from .targets import EQUAL, RANGE, Target, deviations
+from .targets import RANGE, Target, deviations
 
 WORST = {True: float(np.log(RANGE)), False: 100.0}
 """Deviation of a number that is not there: its run took too long or failed, or there was nothing to measure."""

@@ -8,21 +8,13 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import InputError
-from ...observables import REGISTRY, How, find
-from ...published.cases import CASES, CLASS_BORDERS, solids_of
+from ...observables import How, find
+from ...published.cases import CLASS_BORDERS, solids_of
 from ..file import StudyReader, Variables, load_table
+from ..schema import unknown
 from .parameters import PLACE, Choice, Parameter, Point, Real
-from .targets import ABOVE, BELOW, EQUAL, ERROR, Target, evenly, published_targets
-
-KEYS = (
-    "variables", "seeds", "ranks", "classes", "plane", "observables_file", "parameter", "case", "start", "search", "local", "confirm",
-)  # fmt: skip
-CASE_KEYS = ("name", "input", "published", "weight", "solids", "limit", "variables", "target")
-TARGET_KEYS = ("quantity", "time", "part", EQUAL, BELOW, ABOVE, "error", "weight")
-PARAMETER_KEYS = ("name", "low", "high", "log", "choices")
-STAGE_KEYS = ("variables", "seeds", "limit")
-FEWEST_SEEDS = 2
-FEWEST_POINTS = 4
+from .schema import ABOVE, BELOW, EQUAL, FEWEST_SEEDS, SCHEMA
+from .targets import ERROR, Target, evenly, published_targets
 
 
 @dataclass(frozen=True)
@@ -47,6 +39,8 @@ class Case:
         MPI ranks of a run.
     limit : int or None
         Core-seconds that a run of it may take, over the stages' own.
+    launcher : str or None
+        What starts a run (:mod:`clusterdem.studies.launch`).
     seeds : tuple of int
         Seeds of the run to be planned; set run by run.
     """
@@ -60,6 +54,7 @@ class Case:
     variables: Variables
     ranks: int
     limit: int | None = None
+    launcher: str | None = None
     seeds: tuple[int, ...] = ()
 
 
@@ -158,7 +153,9 @@ class Calibration:
     confirm: Confirm | None = None
 
 
-def read_calibration(path: str | Path, variables: Variables | None = None, trials: int | None = None) -> Calibration:
+def read_calibration(
+    path: str | Path, variables: Variables | None = None, trials: int | None = None, **over: Any
+) -> Calibration:
     """Read and check a study file; the message of a refusal names key, value and rule.
 
     Parameters
@@ -169,9 +166,11 @@ def read_calibration(path: str | Path, variables: Variables | None = None, trial
         Variables of every run, over those of the file and of its stages.
     trials : int, optional
         Trials of the search, in place of those of the file.
+    **over
+        Values of the keys ``ranks`` and ``launcher`` in place of the file's.
     """
     path = Path(path)
-    study = _Reader(path, load_table(path)).calibration(variables or {})
+    study = _Reader(path, load_table(path, SCHEMA, variables, **over)).calibration(variables or {})
     return study if trials is None else replace(study, search=replace(study.search, trials=trials))
 
 
@@ -179,181 +178,139 @@ class _Reader(StudyReader):
     how: How = How()
 
     def calibration(self, over: Variables) -> Calibration:
-        self.only(KEYS, self.table)
-        self.own_observables(self.table)
-        scripts = [self.input(case) for case in self.tables("case", self.table)]
-        self.how = How(borders=self.classes(self.table, scripts), plane=self.plane(self.table))
+        self.own_observables()
+        scripts = [self.input(case) for case in self.table.get("case", [])]
+        self.how = How(borders=self.classes(scripts), plane=self.table.get("plane", "xz"))
         parameters = self.parameters()
-        ranks = self.count("ranks", self.table.get("ranks", 1))
-        common = self.variables("variables", self.table.get("variables", {}))
-        cases = self.cases(common, ranks)
+        cases = self.cases()
         for case in cases:
             self.check_places(case, parameters)
         search, local, confirm = (self.stage(name, over) for name in ("search", "local", "confirm"))
-        given = self.subtable("search")
         starts = {
-            name: self.point(f"start.{name}", point, parameters) for name, point in self.subtable("start").items()
+            name: self.point(f"start.{name}", one, parameters) for name, one in self.table.get("start", {}).items()
         }
-        found = Search(
-            search.variables,
-            search.seeds,
-            search.limit,
-            self.count("search.trials", given.get("trials", Search.trials)),
-            self.population(given.get("population")),
-            self.share("search.promote", given.get("promote", Search.promote)),
-        )
         return Calibration(
             self.path,
             cases,
             parameters,
             starts,
-            found,
+            Search(*search, **self.own("search", "trials", "population", "promote")),
             self.how,
-            self.local(local) if "local" in self.table else None,
-            self.confirm(confirm, starts) if "confirm" in self.table else None,
+            Local(*local, **self.own("local", "step", "polish", "choices")) if "local" in self.table else None,
+            Confirm(*confirm, **self.confirm(starts)) if "confirm" in self.table else None,
         )
 
-    def subtable(self, name: str) -> dict[str, Any]:
+    def own(self, stage: str, *keys: str) -> dict[str, Any]:
+        return {key: value for key, value in self.table.get(stage, {}).items() if key in keys}
+
+    def stage(self, name: str, over: Variables) -> tuple[Variables, tuple[int, ...], int | None]:
         given = self.table.get(name, {})
-        if not isinstance(given, dict):
-            raise self.refuse(name, given, f"must be a table, written as [{name}]")
-        return given
+        fallback = self.table.get("search", {}).get("variables", {}) if name == "local" else {}
+        variables = self.variables(given.get("variables", fallback))
+        seeds = given.get("seeds", self.table.get("seeds", FEWEST_SEEDS))
+        return variables | over, self.seeds(seeds), given.get("limit")
 
-    def tables(self, name: str, table: dict[str, Any], where: str = "") -> list[dict[str, Any]]:
-        given = table.get(name, [])
-        if not isinstance(given, list) or not all(isinstance(one, dict) for one in given):
-            raise self.refuse(where + name, given, f"must be written as [[{where}{name}]]")
-        return given
-
-    def number(self, key: str, given: object, above: float | None = None) -> float:
-        if isinstance(given, bool) or not isinstance(given, (int, float)) or abs(float(given)) == float("inf"):
-            raise self.refuse(key, given, "must be a number")
-        if float(given) != float(given) or (above is not None and not given > above):
-            raise self.refuse(
-                key, given, f"must be a number above {above:g}" if above is not None else "must be a number"
-            )
-        return float(given)
-
-    def share(self, key: str, given: object) -> float:
-        value = self.number(key, given, above=0)
-        if value > 1:
-            raise self.refuse(key, given, "must be a share, above 0 and at most 1")
-        return value
+    def confirm(self, starts: Mapping[str, Point]) -> dict[str, Any]:
+        found = self.own("confirm", "best")
+        names = self.table["confirm"].get("starts", [])
+        if not set(names) <= set(starts):
+            rule = f"must be a list of starts ({', '.join(starts) or 'there are none'})"
+            raise self.refuse("confirm.starts", names, rule)
+        return found | {"starts": tuple(names)}
 
     def parameters(self) -> tuple[Parameter, ...]:
         found: list[Parameter] = []
-        for table in self.tables("parameter", self.table):
-            name = table.get("name")
-            if not isinstance(name, str) or not name.isidentifier():
-                raise self.refuse("parameter.name", name, "must be a word of letters, digits and underscores")
-            where = f"parameter {name!r}"
-            self.only(PARAMETER_KEYS, table, f"{where}: ")
+        for table in self.table.get("parameter", []):
+            name = table["name"]
             if name in [one.name for one in found]:
                 raise self.refuse("parameter.name", name, "stands there twice")
-            found.append(self.choice(where, name, table) if "choices" in table else self.real(where, name, table))
+            found.append(self.choice(name, table["choices"]) if "choices" in table else self.real(name, table))
         if not found:
             raise InputError(self.path, "no parameter: [[parameter]] must name what is fitted")
         return tuple(found)
 
-    def choice(self, where: str, name: str, table: dict[str, Any]) -> Choice:
-        given = table["choices"]
-        if not isinstance(given, list):
-            raise self.refuse(f"{where} choices", given, "must be a list of values")
-        options = tuple(self.value(where, name, value) for value in given)
-        if not options or len(set(options)) < len(options):
-            raise self.refuse(f"{where} choices", given, "needs one value or more, all different")
-        if extra := sorted(set(table) - {"name", "choices"}):
-            raise self.refuse(where, extra, "a parameter has either choices, or low, high and log")
+    def choice(self, name: str, given: list[Any]) -> Choice:
+        options = tuple(str(value) for value in given)
+        if len(set(options)) < len(options):
+            raise self.refuse(f"parameter {name!r}.choices", given, "must all differ")
         return Choice(name, options)
 
-    def real(self, where: str, name: str, table: dict[str, Any]) -> Real:
-        low, high = (self.number(f"{where} {key}", table.get(key)) for key in ("low", "high"))
-        log = table.get("log", False)
-        if not isinstance(log, bool):
-            raise self.refuse(f"{where} log", log, "must be true or false")
+    def real(self, name: str, table: dict[str, Any]) -> Real:
+        low, high, log = float(table["low"]), float(table["high"]), table.get("log", False)
+        where = f"parameter {name!r}."
         if not low < high:
-            raise self.refuse(f"{where} low, high", [low, high], "low must be below high")
+            raise self.refuse(f"{where}low, high", [low, high], "low must be below high")
         if log and low <= 0:
-            raise self.refuse(f"{where} low", low, "must be above 0 where log = true")
+            raise self.refuse(f"{where}low", low, "must be above 0 where log = true")
         return Real(name, low, high, log)
 
-    def cases(self, common: Variables, ranks: int) -> tuple[Case, ...]:
+    def cases(self) -> tuple[Case, ...]:
         found: list[Case] = []
-        for table in self.tables("case", self.table):
+        common = self.variables(self.table.get("variables", {}))
+        ranks, launcher = self.table.get("ranks", 1), self.launcher()
+        for table in self.table.get("case", []):
             name = table.get("name", table.get("published"))
-            if not isinstance(name, str) or not name:
-                raise self.refuse("case.name", name, "must be a text")
             if name in [case.name for case in found]:
                 raise self.refuse("case.name", name, "stands there twice")
-            where = f"case {name!r}: "
-            self.only(CASE_KEYS, table, where)
-            variables = common | self.variables(f"{where}variables", table.get("variables", {}))
-            solids = self.solids(where, table)
+            where = f"case {name!r}"
+            variables = common | self.variables(table.get("variables", {}))
+            solids = self.solids(table)
             targets = tuple(self.targets(where, table))
             if solids is None and any(target.quantity == "clusters" for target in targets):
                 rule = (
                     "a number of clusters belongs to a mass of solids: solids = kg, so that parts of a domain compare"
                 )
-                raise InputError(self.path, f"{where}{rule}")
-            weight = self.number(f"{where}weight", table.get("weight", 1.0), above=0)
-            limit = table.get("limit")
-            limit = None if limit is None else self.count(f"{where}limit", limit)
-            found.append(Case(self.path, self.input(table), name, targets, weight, solids, variables, ranks, limit))
+                raise InputError(self.path, f"{where}: {rule}")
+            weight, limit = float(table.get("weight", 1.0)), table.get("limit")
+            script = self.input(table)
+            found.append(Case(self.path, script, name, targets, weight, solids, variables, ranks, limit, launcher))
         if not found:
             raise InputError(self.path, "no case: [[case]] must name an input and what was observed of it")
         return tuple(found)
 
-    def solids(self, where: str, table: dict[str, Any]) -> float | None:
+    def solids(self, table: dict[str, Any]) -> float | None:
         if "solids" in table:
-            return self.number(f"{where}solids", table["solids"], above=0)
-        published = table.get("published")
-        return solids_of(published) if published in CASES else None
+            return float(table["solids"])
+        return solids_of(table["published"]) if "published" in table else None
 
     def targets(self, where: str, table: dict[str, Any]) -> list[Target]:
         found: list[Target] = []
         if "published" in table:
             published = table["published"]
-            if published not in CASES:
-                raise self.refuse(f"{where}published", published, f"must be among {', '.join(CASES)}")
             if self.how.borders != CLASS_BORDERS:
                 rule = f"published = {published!r} has the paper's own"
                 raise self.refuse("classes", [1e6 * border for border in self.how.borders], rule)
             found += published_targets(published)
-        own = [self.target(where, one) for one in self.tables("target", table, "case.")]
-        found += evenly(own)
+        found += evenly([self.target(where, one) for one in table.get("target", [])])
         if not found:
-            raise InputError(self.path, f"{where}nothing observed: published = NAME, or [[case.target]]")
+            raise InputError(self.path, f"{where}: nothing observed: published = NAME, or [[case.target]]")
         return found
 
     def target(self, where: str, table: dict[str, Any]) -> Target:
-        self.only(TARGET_KEYS, table, f"{where}target: ")
-        name = table.get("quantity")
-        if not isinstance(name, str) or name not in REGISTRY:
-            raise self.refuse(f"{where}target.quantity", name, f"must be among {', '.join(REGISTRY)}")
+        name = self.observable(f"{where}.target.quantity", table["quantity"])
+        given = f"{where}.target {name!r}"
         quantity = find(name)
         parts = quantity.parts(self.how)
-        kinds = [kind for kind in (EQUAL, BELOW, ABOVE) if kind in table]
-        if len(kinds) != 1:
-            raise self.refuse(f"{where}target", kinds, "needs one of value, below, above")
-        part = table.get("part")
+        kind = next(kind for kind in (EQUAL, BELOW, ABOVE) if kind in table)
+        part, value = table.get("part"), table[kind]
         if name in ("size_classes", "mass_classes") and not self.how.borders:
             raise self.refuse(
                 "classes", None, f"must name the borders of the size classes (µm), of which {name} has a target"
             )
         if parts and part not in parts:
-            raise self.refuse(f"{where}target.part", part, f"must be among {', '.join(parts)}")
+            raise self.refuse(f"{given}.part", part, f"must be among {', '.join(parts)}")
         if not parts and part is not None:
-            raise self.refuse(f"{where}target.part", part, f"{name} is a single number")
-        given = f"{where}target"
-        value = self.number(f"{given}.{kinds[0]}", table[kinds[0]], above=0 if quantity.relative else None)
+            raise self.refuse(f"{given}.part", part, f"{name} is a single number")
+        if quantity.relative and value <= 0:
+            raise self.refuse(f"{given}.{kind}", value, "must be above 0, as ratios count")
         return Target(
             name,
-            self.number(f"{given}.time", table.get("time"), above=0),
+            float(table["time"]),
             parts.index(part) if parts else 0,
-            value,
-            kinds[0],
-            self.number(f"{given}.error", table.get("error", ERROR[quantity.relative]), above=0),
-            self.number(f"{given}.weight", table.get("weight", 1.0), above=0),
+            float(value),
+            kind,
+            float(table.get("error", ERROR[quantity.relative])),
+            float(table.get("weight", 1.0)),
             part or "",
         )
 
@@ -364,10 +321,11 @@ class _Reader(StudyReader):
                 if place not in names:
                     raise self.refuse(f"variables.{variable}", text, f"{{{place}}} is no parameter")
 
-    def point(self, where: str, given: object, parameters: tuple[Parameter, ...]) -> Point:
-        if not isinstance(given, dict):
-            raise self.refuse(where, given, "must be a table with a value for every parameter")
-        self.only(tuple(parameter.name for parameter in parameters), given, f"{where}: ")
+    def point(self, where: str, given: dict[str, Any], parameters: tuple[Parameter, ...]) -> Point:
+        names = [parameter.name for parameter in parameters]
+        for name in given:
+            if name not in names:
+                raise InputError(self.path, f"{where}: {unknown('parameter', name, names)}")
         point: Point = {}
         for parameter in parameters:
             key, value = f"{where}.{parameter.name}", given.get(parameter.name)
@@ -378,52 +336,9 @@ class _Reader(StudyReader):
                     raise self.refuse(key, value, f"must be among {', '.join(parameter.options)}")
                 point[parameter.name] = str(value)
                 continue
-            number = self.number(key, value)
-            if not parameter.low <= number <= parameter.high:
+            if isinstance(value, str):
+                raise self.refuse(key, value, "must be a number")
+            if not parameter.low <= value <= parameter.high:
                 raise self.refuse(key, value, f"must lie between {parameter.low:g} and {parameter.high:g}")
-            point[parameter.name] = parameter.rounded(number)
+            point[parameter.name] = parameter.rounded(float(value))
         return point
-
-    def stage(self, name: str, over: Variables) -> Stage:
-        given = self.subtable(name)
-        keys = {
-            "search": (*STAGE_KEYS, "trials", "population", "promote"),
-            "local": (*STAGE_KEYS, "step", "polish", "choices"),
-            "confirm": (*STAGE_KEYS, "best", "starts"),
-        }[name]
-        self.only(keys, given, f"{name}: ")
-        fallback = self.subtable("search").get("variables", {}) if name == "local" else {}
-        variables = self.variables(f"{name}.variables", given.get("variables", fallback))
-        seeds = given.get("seeds", self.table.get("seeds", FEWEST_SEEDS))
-        limit = given.get("limit")
-        return Stage(
-            variables | over,
-            self.seeds(seeds, FEWEST_SEEDS, f"{name}.seeds"),
-            None if limit is None else self.count(f"{name}.limit", limit),
-        )
-
-    def population(self, given: object) -> int | None:
-        if given is not None and self.count("search.population", given) < FEWEST_POINTS:
-            raise self.refuse("search.population", given, f"a generation needs {FEWEST_POINTS} points or more")
-        return None if given is None else self.count("search.population", given)
-
-    def local(self, stage: Stage) -> Local:
-        given = self.subtable("local")
-        polish = given.get("polish", Local.polish)
-        if type(polish) is not int or polish < 0:
-            raise self.refuse("local.polish", polish, "must be a whole number, 0 or more")
-        step = self.share("local.step", given.get("step", Local.step))
-        choices = given.get("choices", Local.choices)
-        if not isinstance(choices, bool):
-            raise self.refuse("local.choices", choices, "must be true or false")
-        return Local(stage.variables, stage.seeds, stage.limit, step, polish, choices)
-
-    def confirm(self, stage: Stage, starts: Mapping[str, Point]) -> Confirm:
-        given = self.subtable("confirm")
-        names = given.get("starts", [])
-        if not isinstance(names, list) or not all(isinstance(name, str) and name in starts for name in names):
-            raise self.refuse(
-                "confirm.starts", names, f"must be a list of starts ({', '.join(starts) or 'there are none'})"
-            )
-        best = self.count("confirm.best", given.get("best", Confirm.best))
-        return Confirm(stage.variables, stage.seeds, stage.limit, best, tuple(names))

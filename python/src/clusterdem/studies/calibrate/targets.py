@@ -13,8 +13,8 @@ from ...frame import Floats, Frame
 from ...observables import How, find
 from ...published.cases import CASES, CLASS_BORDERS, END
 from ...times import nearest
+from .schema import ABOVE, BELOW, EQUAL
 
-EQUAL, BELOW, ABOVE = "value", "below", "above"
 RANGE = 1e3
 """Ratios further from 1 than this count as this much."""
 

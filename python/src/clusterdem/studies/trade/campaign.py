@@ -27,12 +27,15 @@ class Campaign:
         Where runs are kept.
     jobs : int
         Runs at a time.
+    dry : bool
+        Whether missing runs are only told, by :class:`clusterdem.studies.runs.Missing`.
     """
 
     study: Study
     engine: Engine
     folder: Path
     jobs: int
+    dry: bool = False
     runs: list[StudyRun] = field(default_factory=list)
     failures: dict[str, Failure] = field(default_factory=dict)
     weighed: list[Weighed] = field(default_factory=list)
@@ -48,7 +51,7 @@ class Campaign:
     def carry_out(self, runs: Iterable[StudyRun]) -> None:
         """Do runs, and weigh all settings so far."""
         new = list(runs)
-        self.failures |= perform(new, self.jobs)
+        self.failures |= perform(new, self.jobs, dry=self.dry)
         self.runs += new
         self.weighed = weigh(self.study, self.runs, self.failures, self.observed)
 

@@ -7,13 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
-from ...errors import InputError
 from ...frame import Box, Frame
 from ...io.output import atomic
-from ...observables import columns_of
+from ...observables import columns_of, find
 from ...primary import primary_beside
 from ...run import Run
-from ..runs import Keeping
+from ..runs import Keeping, frames_of
 
 FRAMES = "frames.npz"
 
@@ -25,6 +24,7 @@ def write_frames(path: Path, frames: Iterable[Frame]) -> int:
     for frame in frames:
         arrays[f"when{count}"] = np.array([frame.step, frame.time])
         arrays[f"box{count}"] = np.array([frame.box.lo, frame.box.hi, frame.box.periodic], dtype=float)
+        arrays |= {f"run{count} {name}": np.array(number) for name, number in frame.run.items()}
         arrays |= {f"column{count} {name}": values for name, values in frame.columns.items()}
         count += 1
     with atomic(path) as name:
@@ -42,23 +42,22 @@ def read_frames(path: Path) -> list[Frame]:
             step, time = data[f"when{number}"]
             lo, hi, periodic = data[f"box{number}"]
             box = Box(tuple(map(float, lo)), tuple(map(float, hi)), tuple(map(bool, periodic)))  # type: ignore[arg-type]
-            prefix = f"column{number} "
-            columns = {name.removeprefix(prefix): data[name] for name in data if name.startswith(prefix)}
-            frames.append(Frame(int(step), float(time), box, columns, str(path), primary=primary))
+            columns, run = (
+                {name.removeprefix(prefix): data[name] for name in data if name.startswith(prefix)}
+                for prefix in (f"column{number} ", f"run{number} ")
+            )
+            of_run = {name: float(value) for name, value in run.items()}
+            frames.append(Frame(int(step), float(time), box, columns, str(path), primary=primary, run=of_run))
     return frames
 
 
 def keeping_of(observables: Sequence[str]) -> Keeping:
     """What a trade keeps of its runs; another set of columns is another kind of run."""
     columns = columns_of(observables)
+    of_run = sorted({name for own in observables for name in find(own).of_run})
 
     def keep(found: Run) -> None:
-        frames = list(found.frames(("y", *columns)))
-        if len(frames) < 2:
-            raise InputError(found.path, "holds no frame after the start")
-        if any(np.isnan(frame.time) for frame in frames):
-            rule = "frames hold no time, by which runs are compared: dump_modify … time yes"
-            raise InputError(found.dumps[0], rule)
-        write_frames(found.path / FRAMES, frames)
+        write_frames(found.path / FRAMES, frames_of(found, observables))
 
-    return Keeping(f"frames 2: {' '.join(sorted(columns))}", keep)
+    run = f"; run {' '.join(of_run)}" if of_run else ""
+    return Keeping(f"frames 2: {' '.join(sorted(columns))}{run}", keep)

@@ -12,8 +12,9 @@ from ..runs import Cost, Failure, Setting, StudyRun, read_cost
 from .errors import Error, errors_of
 from .frames import FRAMES, read_frames
 from .observe import Observed, observe
+from .schema import FEWEST_SEEDS
 from .settings import REFERENCE
-from .study import FEWEST_SEEDS, Study
+from .study import Study
 
 WORTH = 0.02
 """Share of the core-seconds that a change must save; less is the clock's noise."""
