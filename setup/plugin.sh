@@ -1,6 +1,14 @@
 # The plugin and the wrapper build/bin/lmp, by CMake. (Unit tests are built by ./run test.)
 # shellcheck shell=bash
 
+# A build/ that is a link into another checkout would be turned over to this one, and the other would run this one's code.
+check_build_is_ours() {
+  local other
+  other=$(sed -nE 's/^CMAKE_HOME_DIRECTORY:INTERNAL=(.*)/\1/p' "$build/CMakeCache.txt" 2>/dev/null) || return 0
+  [[ $other && $other != "$root" && -e $other/run && $other/build -ef $root/build ]] || return 0
+  die "$root/build is the build folder of $other, too: give this checkout one of its own (remove the link build)."
+}
+
 build_plugin() {
   make_folder "$build"
   local log=$build/build.log arguments

@@ -149,3 +149,21 @@ def test_unknown_words(machine):
     assert "say --lammps newest" in machine.fails("./run", "setup", "--lammps", "oldest")
     assert "unknown argument fast" in machine.fails("./run", "setup", "fast")
     assert "--np wants the number of ranks" in machine.fails("./run", "case1", "--np", "two")
+
+
+def test_a_build_folder_of_another_checkout_is_left_alone(machine, tmp_path):
+    """A link build -> OTHER/build: the other checkout would be given this one's code. A checkout that moved is no such case."""
+    other = tmp_path / "other"
+    (other / "build" / "venv").mkdir(parents=True)
+    (other / "run").touch()
+    cache = other / "build" / "CMakeCache.txt"
+    cache.write_text(f"CMAKE_HOME_DIRECTORY:INTERNAL={other}\n")
+    shutil.rmtree(machine.folder / "build")
+    (machine.folder / "build").symlink_to(other / "build")
+    script = "build_plugin() { echo BUILT; }\nbuild_python() { :; }\ncheck_build_is_ours\nbuild_plugin"
+    process = machine.bash(script)
+    output = process.communicate(timeout=60)[0]
+    assert process.returncode != 0 and f"is the build folder of {other}, too" in output and "BUILT" not in output
+    (other / "run").unlink()  # the other one is gone
+    process = machine.bash(script)
+    assert "BUILT" in process.communicate(timeout=60)[0] and process.returncode == 0

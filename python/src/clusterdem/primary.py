@@ -151,7 +151,7 @@ def primary_of_log(path: Path) -> Primary | None:
 @lru_cache(maxsize=64)
 def primary_beside(dump: Path) -> Primary | None:
     """What the log beside a dump tells: ``NAME.log``, or the engines' own ``log.lammps`` and ``log.liggghts``."""
-    name = re.sub(r"\.(\d+\.)?(dump|maps)(\.gz|\.zst|\.bin)?$", "", dump.name)
+    name = re.sub(r"\.(\d+\.)?(dump|maps)(\.gz|\.bz2|\.xz|\.zst|\.bin)?$", "", dump.name)
     for log in (f"{name}.log", "log.lammps", "log.liggghts"):
         if (found := primary_of_log(dump.with_name(log))) is not None:
             return found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import shlex
 from collections.abc import Collection, Iterator
@@ -23,7 +24,7 @@ from .times import nearest, tolerance_at
 if TYPE_CHECKING:
     import MDAnalysis
 
-FILE = re.compile(r"^(?P<name>[^.].*?)\.(?:\d+\.)?(?P<kind>dump|maps)(?:\.gz|\.zst|\.bin)?$")
+FILE = re.compile(r"^(?P<name>[^.].*?)\.(?:\d+\.)?(?P<kind>dump|maps)(?:\.gz|\.bz2|\.xz|\.zst|\.bin)?$")
 TABLE = ".N.txt"
 
 
@@ -33,7 +34,7 @@ class Run:
     Parameters
     ----------
     folder : str or Path
-        The folder: dumps ``NAME.STEP.dump`` or ``NAME.dump`` (maybe .gz, .zst, .bin), maps made by the run
+        The folder: dumps ``NAME.STEP.dump`` or ``NAME.dump`` (maybe .gz, .bz2, .xz, .zst, .bin), maps made by the run
         ``NAME.STEP.maps``, the table ``NAME.N.txt``, the log ``NAME.log`` and ``command.txt``, as far as they are there.
     name : str, optional
         What the files' names begin with; needed only where several runs share the folder.
@@ -76,7 +77,7 @@ class Run:
             elif file.name.endswith(TABLE) and not file.name.startswith("."):
                 files.setdefault(file.name.removesuffix(TABLE), {})
         if not files:
-            raise InputError(folder, "holds no dump file (NAME.STEP.dump, maybe .gz, .zst or .bin)")
+            raise InputError(folder, "holds no dump file (NAME.STEP.dump, maybe .gz, .bz2, .xz, .zst or .bin)")
         if name is None and len(files) > 1:
             rule = f"must be chosen: {folder} holds several runs ({', '.join(sorted(files))})"
             raise ArgumentError("name", rule)
@@ -88,6 +89,36 @@ class Run:
         self.maps = natural_order(files[self.name].get("maps", []))
         self.density = density
         self._dt = dt
+
+    @classmethod
+    def of_dumps(cls, dumps: Collection[str | Path], *, dt: float | None = None, density: float | None = None) -> Run:
+        """A run of some dump files, whatever they are called: of one or of several, in natural order of their names.
+
+        Parameters
+        ----------
+        dumps : collection of str or Path
+            The files. The table and the log are looked for in the folder of the first, by the name that all begin with; of files that begin
+            differently there is no table.
+        dt, density
+            As of a folder.
+
+        Raises
+        ------
+        InputError
+            If there is no file, or one does not exist.
+        """
+        files = natural_order(dumps)
+        for file in files:
+            if not file.is_file():
+                raise InputError(file, "must be the folder of a run, or a dump file")
+        if not files:
+            raise InputError("", "must be the folder of a run, or dump files")
+        names = {found["name"] if (found := FILE.match(file.name)) else file.name for file in files}
+        run = cls.__new__(cls)
+        run.path = files[0].parent
+        run.name = names.pop() if len(names) == 1 else os.path.commonprefix(sorted(names)).rstrip("._-") or "dumps"
+        run.dumps, run.maps, run.density, run._dt = files, [], density, dt
+        return run
 
     def __repr__(self) -> str:
         return f"Run({str(self.path)!r}, {self.name!r})"

@@ -27,19 +27,20 @@ def positive(text: str) -> float:
 
 def add_dumps(parser: argparse.ArgumentParser) -> None:
     """The dump files and what is needed to read them."""
-    parser.add_argument(
-        "dumps", nargs="+", metavar="DUMP", help="dump files (text, .gz and .zst too, or binary), any order"
-    )
+    parser.add_argument("dumps", nargs="+", metavar="DUMP", help="dump files (text, packed too, or binary), any order")
     parser.add_argument("--dt", type=positive, metavar="S", help="timestep (s), for dumps that hold no time")
+    add_density(parser)
 
 
 def add_density(parser: argparse.ArgumentParser) -> None:
     """The density of the primary particles."""
     parser.add_argument(
         "--rho",
+        "--density",
         type=positive,
         metavar="KG/M3",
-        help="density of the primary particles (default: what the run's log or the dump's columns tell, else 2000)",
+        help="density of the primary particles (default: what the run's log or the dump's columns tell, else 2000); "
+        "of the spheres themselves in dumps with neither mass nor density",
     )
 
 

@@ -18,13 +18,12 @@ from ..io.reader import read_dumps
 from ..plot.film import Picture, Scales, picture, write_film
 from ..plot.scatter import colouring_of, quantity
 from ..published.cases import SCALE
-from .common import add_density, add_dumps, add_grid, columns_for, finish, grid_for, paper_case, positive, tell
+from .common import add_dumps, add_grid, columns_for, finish, grid_for, paper_case, positive, tell
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_dumps(parser)
     add_grid(parser)
-    add_density(parser)
     parser.add_argument(
         "--colour",
         choices=("diameter", "vx", "vy", "vz", "speed"),

@@ -64,7 +64,7 @@ def run(options: argparse.Namespace) -> None:
         length = frame.box.lengths["xyz".index(options.axis)]
         return slab_flow(frame, _section(options, frame), length / SLABS if options.slab is None else options.slab)
 
-    found = over_frames(options.dumps, work, columns, options.dt, one_box="a flow through a plane needs")
+    found = over_frames(options.dumps, work, columns, options.dt, options.rho, one_box="a flow through a plane needs")
     if found.root and found.heads:
         out: Path = options.out
         passed = _crossings(options, found.heads[-1], columns)
@@ -98,7 +98,7 @@ def _crossings(options: argparse.Namespace, last: Frame, columns: tuple[str, ...
     """What crossed between each frame and the one before; None for the first. Two frames are held at a time."""
     passed: list[Crossings | None] = []
     before: Frame | None = None
-    for frame in read_dumps(options.dumps, columns, dt=options.dt):
+    for frame in read_dumps(options.dumps, columns, dt=options.dt, density=options.rho):
         if before is None:
             passed.append(None)
         else:

@@ -55,7 +55,9 @@ def summary_row(head: Frame, found: Groups) -> list[float]:
 def run(options: argparse.Namespace) -> None:
     if not 0 <= options.gap < float("inf"):
         raise ArgumentError("gap", f"must be 0 µm or more, not {options.gap:g}")
-    found = over_frames(options.dumps, lambda frame: groups_of(frame, 1e-6 * options.gap), ("x", "y", "z"), options.dt)
+    found = over_frames(
+        options.dumps, lambda frame: groups_of(frame, 1e-6 * options.gap), ("x", "y", "z"), options.dt, options.rho
+    )
     if found.root and found.heads:
         out: Path = options.out
         pairs = list(zip(found.heads, found.values))

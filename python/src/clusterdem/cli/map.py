@@ -37,7 +37,6 @@ from ..plot.style import save
 from ..published.cases import SCALE
 from .averages import add_average, averaged, check_average, columns_of, label_of
 from .common import (
-    add_density,
     add_dumps,
     add_grid,
     columns_for,
@@ -53,7 +52,6 @@ from .common import (
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_dumps(parser)
     add_grid(parser)
-    add_density(parser)
     add_average(parser)
     parser.add_argument(
         "--out", type=Path, default=Path("maps"), metavar="DIR", help="folder for the results (default maps)"

@@ -71,7 +71,7 @@ def run(options: argparse.Namespace) -> None:
         grid = any_grid_for(options, frame)
         return lacey(of_kind(frame), cell_of(grid, *grid.places(frame)))
 
-    found = over_frames(options.dumps, work, ("x", "y", "z", column), options.dt)
+    found = over_frames(options.dumps, work, ("x", "y", "z", column), options.dt, options.rho)
     if found.root and found.heads:
         out: Path = options.out
         if all(not one.segregated > 0 for one in found.values):

@@ -28,7 +28,6 @@ from ..plot.style import save
 from ..plot.times import draw_average, draw_pair_correlation, draw_profiles
 from .averages import add_average, averaged, check_average, columns_of, label_of
 from .common import (
-    add_density,
     add_dumps,
     add_plane,
     columns_for,
@@ -44,7 +43,6 @@ MOST_BINS = 1000
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_dumps(parser)
-    add_density(parser)
     parser.add_argument(
         "--bins",
         type=int,

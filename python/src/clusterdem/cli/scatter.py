@@ -43,7 +43,7 @@ def run(options: argparse.Namespace) -> None:
             draw_scatter(frame, options.colour, window, options.plane), options.out / f"scatter.{frame.step:010d}.png"
         )
 
-    found = over_frames(options.dumps, work, columns, options.dt)
+    found = over_frames(options.dumps, work, columns, options.dt, options.rho)
     if found.root:
         tell(*found.values)
     finish(found)

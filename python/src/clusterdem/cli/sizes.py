@@ -82,7 +82,7 @@ def run(options: argparse.Namespace) -> None:
     elif paper_case(options.dumps):
         borders = CLASS_BORDERS
     all_given = borders and options.bin and options.top
-    low, high = (np.inf, 0.0) if all_given else size_range(options.dumps)
+    low, high = (np.inf, 0.0) if all_given else size_range(options.dumps, options.rho)
     how = observables.How(borders=borders or borders_of(low, high))
     edges = _edges(options, low, high)
     names = dict.fromkeys([*COLUMNS.values(), *CLASSES.values(), *(one.name for one in own)])
@@ -93,7 +93,7 @@ def run(options: argparse.Namespace) -> None:
 
     series = None if options.series is None else read_series(options.series, ("time", "clusters"))
     columns = observables.columns_of(options.observe) if own else ()
-    found = over_frames(options.dumps, work, columns, options.dt)
+    found = over_frames(options.dumps, work, columns, options.dt, options.rho)
     if found.root and found.heads:
         sizes = {name: np.stack([value[name] for value, _ in found.values]) for name in names}
         histograms = [h for _, h in found.values]

@@ -33,7 +33,7 @@ def run(options: argparse.Namespace) -> None:
                 table.write_parquet(name)
         return path
 
-    found = over_frames(options.dumps, work, None, options.dt)
+    found = over_frames(options.dumps, work, None, options.dt, options.rho)
     if found.root:
         tell(*found.values)
     finish(found)

@@ -57,7 +57,7 @@ def _edges(options: argparse.Namespace, columns: list[str]) -> list[Floats]:
         values = [velocity_of(frame, axis) for axis in options.axes]
         return np.array([(v.min(initial=np.inf), v.max(initial=-np.inf)) for v in values])
 
-    every = np.array(over_frames(options.dumps, ends, columns, options.dt).values)
+    every = np.array(over_frames(options.dumps, ends, columns, options.dt, options.rho).values)
     if comm := communicator():
         every = comm.bcast(every)
     return [
@@ -86,7 +86,7 @@ def run(options: argparse.Namespace) -> None:
             [histogram(velocity_of(frame, axis), frame.mass, borders) for axis, borders in zip(options.axes, edges)],
         )
 
-    found = over_frames(options.dumps, work, columns, options.dt)
+    found = over_frames(options.dumps, work, columns, options.dt, options.rho)
     if found.root and found.heads:
         out: Path = options.out
         heading = ["step", "time", "clusters"]

@@ -21,7 +21,6 @@ from ..io.reader import notes
 from ..io.vtk import write_image, write_points, write_series
 from .common import (
     add_any_cells,
-    add_density,
     add_deposit,
     add_dumps,
     any_grid_for,
@@ -37,7 +36,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_dumps(parser)
     add_any_cells(parser)
     add_deposit(parser)
-    add_density(parser)
     parser.add_argument(
         "--out", type=Path, default=Path("vtk"), metavar="DIR", help="folder for the results (default vtk)"
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import struct
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import BinaryIO
 
@@ -109,8 +109,8 @@ class BinarySource:
         box = Box((lo[0], lo[1], lo[2]), (hi[0], hi[1], hi[2]), (periodic[0], periodic[1], periodic[2]))
         return Header(step, time, count, box, names, 0, 0)
 
-    def read_rows(self, header: Header, wanted: Sequence[int]) -> list[Floats]:
-        """The wanted columns, by position; none wanted passes over the rows."""
+    def read_rows(self, header: Header, wanted: Sequence[int], finite: Collection[int] = ()) -> list[Floats]:
+        """The wanted columns, by position, of which some must be finite; none wanted passes over the rows."""
         width = len(header.names)
         columns = [np.empty(header.count) for _ in wanted]
         at = 0
@@ -131,7 +131,7 @@ class BinarySource:
         if at != header.count:
             raise InputError(self.path, f"the frame holds {at} of its {header.count} rows")
         for column, index in zip(columns, wanted):
-            if not np.abs(column).max(initial=0.0) < LARGEST:  # also where a value is NaN
+            if index in finite and not np.abs(column).max(initial=0.0) < LARGEST:  # also where a value is NaN
                 rule = f"column {index + 1} ({header.names[index]}) must be finite and below {LARGEST:g}"
                 raise InputError(self.path, rule)
         return columns

@@ -97,6 +97,21 @@ def _cells(source: LineSource) -> tuple[int, int, int]:
     return nx, ny, nz
 
 
+OTHER_KINDS = (
+    (b"# vtk DataFile", "is a VTK file, which ParaView opens"),
+    (b"<?xml", "is an XML file, maybe VTK, which ParaView opens"),
+    (b"<VTKFile", "is a VTK file, which ParaView opens"),
+    (b"LAMMPS data file", "is a data file, which read_data reads"),
+    (b"LIGGGHTS data file", "is a data file, which read_data reads"),
+)
+
+
+def _refuse_other_kinds(item: bytes, source: LineSource) -> None:
+    for first, what in OTHER_KINDS:
+        if item.lstrip().startswith(first):
+            raise InputError(source.path, f"{what}: not a dump, as dump custom writes it", source.line)
+
+
 def read_header(source: LineSource) -> Header | None:
     """Read a frame's header, of atoms or of cells; None at the end of the file.
 
@@ -111,7 +126,10 @@ def read_header(source: LineSource) -> Header | None:
     begin = 0
     while not source.at_end():
         item = source.readline()
+        if not item.strip():
+            continue
         begin = begin or source.line
+        _refuse_other_kinds(item, source)
         if not item.startswith(b"ITEM: "):
             raise InputError(source.path, "not a LAMMPS dump here: a line 'ITEM: …' must stand here", source.line)
         try:
@@ -151,6 +169,11 @@ def read_header(source: LineSource) -> Header | None:
                 raise InputError(source.path, "'ITEM: ATOMS' must name the columns", source.line)
             assert step is not None and count is not None and box is not None
             return Header(step, time, count, box, tuple(words[1:]), begin, source.line)
+        elif name == "NUMBER OF ENTRIES" or words[:1] == ["ENTRIES"]:
+            rule = (
+                "holds entries (pairs, bonds), not atoms, as dump local writes them: atoms are written by dump custom"
+            )
+            raise InputError(source.path, rule, source.line)
         elif words[:2] == ["GRID", "SIZE"]:
             cells = _cells(source)
         elif words[:2] == ["GRID", "CELLS"]:

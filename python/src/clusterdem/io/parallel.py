@@ -139,10 +139,13 @@ def over_frames(
     return result
 
 
-def size_range(dumps: Sequence[str | Path]) -> tuple[float, float]:
+def size_range(dumps: Sequence[str | Path], density: float | None = None) -> tuple[float, float]:
     """Smallest and largest diameter of all frames (m), on every rank; infinity and 0 where there are no clusters."""
     found = over_frames(
-        dumps, lambda frame: (float(frame.diameter.min(initial=np.inf)), float(frame.diameter.max(initial=0.0))), ()
+        dumps,
+        lambda frame: (float(frame.diameter.min(initial=np.inf)), float(frame.diameter.max(initial=0.0))),
+        (),
+        density=density,
     )
     low, high = min((low for low, _ in found.values), default=np.inf), max((up for _, up in found.values), default=0.0)
     comm = communicator()

@@ -58,8 +58,11 @@ def _coordinate(axis: int, names: dict[str, int], box: Box) -> Column | None:
 ALWAYS = ("x", "z", "diameter")
 """Besides ``mass``, or the ``density`` that it follows from."""
 
+FINITE = (*ALWAYS, "y", "vx", "vy", "vz")
+"""What must be finite, of the columns that nobody asked for by name; others may hold NaN."""
 
-def _layout(header: Header, path: str) -> dict[str, Column]:
+
+def _layout(header: Header, path: str, density: float | None) -> dict[str, Column]:
     """The columns of a frame by their plain names."""
     names: dict[str, int] = {}
     for index, raw in enumerate(header.names):
@@ -78,8 +81,9 @@ def _layout(header: Header, path: str) -> dict[str, Column]:
         if "radius" not in layout:
             raise InputError(path, "no column diameter or radius", header.names_line)
         layout["diameter"] = Column(names["radius"], 2.0)
-    if "mass" not in layout and "density" not in layout:
-        raise InputError(path, "no column mass, nor density, from which it would follow", header.names_line)
+    if "mass" not in layout and "density" not in layout and density is None:
+        rule = "no column mass, nor density, from which it would follow: give the spheres' density (--density KG/M3)"
+        raise InputError(path, rule, header.names_line)
     return layout
 
 
@@ -125,11 +129,12 @@ class _TextFrames:
     def header(self) -> Header | None:
         return read_header(self._source)
 
-    def rows(self, header: Header, wanted: Sequence[int], numeric: Collection[int]) -> dict[int, Floats | Words]:
+    def rows(self, header: Header, wanted: Sequence[int], finite: Collection[int]) -> dict[int, Floats | Words]:
         first = header.names_line + 1
+        loose = [index for index in wanted if index not in finite]
         block = self._source.read_until(b"ITEM:", header.count)
-        words = hold_words(block, [index for index in wanted if index not in numeric])
-        found = parse_rows(block, header.count, header.names, wanted, self._source.path, first, words)
+        words = hold_words(block, loose)
+        found = parse_rows(block, header.count, header.names, wanted, self._source.path, first, words, loose)
         return dict(zip(wanted, found))
 
     def skip(self, header: Header) -> None:
@@ -147,8 +152,8 @@ class _BinaryFrames:
     def header(self) -> Header | None:
         return self._source.read_header()
 
-    def rows(self, header: Header, wanted: Sequence[int], numeric: Collection[int]) -> dict[int, Floats | Words]:
-        return dict(zip(wanted, self._source.read_rows(header, wanted)))
+    def rows(self, header: Header, wanted: Sequence[int], finite: Collection[int]) -> dict[int, Floats | Words]:
+        return dict(zip(wanted, self._source.read_rows(header, wanted, finite)))
 
     def skip(self, header: Header) -> None:
         self._source.read_rows(header, ())
@@ -165,14 +170,18 @@ def _open_frames(path: str | Path) -> Iterator[_TextFrames | _BinaryFrames]:
 
 
 def _read_frame(
-    frames: _TextFrames | _BinaryFrames, header: Header, columns: Collection[str] | None, path: str
+    frames: _TextFrames | _BinaryFrames,
+    header: Header,
+    columns: Collection[str] | None,
+    path: str,
+    density: float | None,
 ) -> Frame:
-    layout = _layout(header, path)
+    layout = _layout(header, path, density)
     mass = "mass" if "mass" in layout else "density"
     if columns is not None:
         layout = {name: column for name, column in layout.items() if name in (*ALWAYS, mass) or name in columns}
-    numeric = {layout[name].index for name in (*ALWAYS, mass, "y") if name in layout}
-    raw = frames.rows(header, sorted({column.index for column in layout.values()}), numeric)
+    finite = {layout[name].index for name in (*FINITE, mass, *(columns or ())) if name in layout}
+    raw = frames.rows(header, sorted({column.index for column in layout.values()}), finite)
     values: dict[str, Floats] = {}
     texts: dict[str, Words] = {}
     for name, column in layout.items():
@@ -182,7 +191,8 @@ def _read_frame(
         else:
             texts[name] = found  # type: ignore[assignment]
     if "mass" not in values:
-        values["mass"] = values["density"] * np.pi / 6 * values["diameter"] ** 3
+        # of a dump that tells no mass the spheres are of the given density
+        values["mass"] = values.get("density", density) * np.pi / 6 * values["diameter"] ** 3  # type: ignore[operator]
     if "y" not in layout and (columns is None or "y" in columns):
         values["y"] = np.full(header.count, (header.box.lo[1] + header.box.hi[1]) / 2)
     frame = Frame(header.step, header.time, header.box, values, path, header.line, header.names_line + 1, texts)
@@ -226,7 +236,7 @@ def read_file(
     Parameters
     ----------
     path : str or Path
-        A LAMMPS or LIGGGHTS text dump, plain, .gz or .zst, or a binary one of LAMMPS.
+        A LAMMPS or LIGGGHTS text dump, plain or packed (.gz, .bz2, .xz, .zst), or a binary one of LAMMPS.
     columns : collection of str, optional
         Columns to read besides x, z, mass and diameter; all by default, and y, of dumps without it the middle of the box.
         Absent ones are left out.
@@ -235,7 +245,8 @@ def read_file(
     dt : float, optional
         Step (s) that gives the time where the dump holds none.
     density : float, optional
-        Density of the primary particles (kg/m³); by default what the run's log beside the dump tells.
+        Density of the primary particles (kg/m³); by default what the run's log beside the dump tells. In a dump with neither mass nor
+        density that of the spheres as well, which then are solid.
     rows : bool
         False for the heads alone: step, time, box and place of each frame, without clusters.
 
@@ -266,7 +277,9 @@ def read_file(
                     continue
                 last = header.step
                 if number % share[1] == share[0]:
-                    frame = _read_frame(frames, header, columns, name) if rows else _head_of(frames, header, name)
+                    frame = (
+                        _read_frame(frames, header, columns, name, density) if rows else _head_of(frames, header, name)
+                    )
                     frame = replace(frame, primary=primary)
                     if dt is not None and np.isnan(frame.time):
                         frame = replace(frame, time=frame.step * dt)

@@ -20,6 +20,7 @@ def parse_rows(
     path: str,
     first: int,
     words: Collection[int] = (),
+    loose: Collection[int] = (),
 ) -> list[Floats | Words]:
     """Turn a block of rows into columns.
 
@@ -37,19 +38,21 @@ def parse_rows(
         The file and the line of the first row, for messages.
     words : collection of int
         Those of the wanted that hold words, not numbers.
+    loose : collection of int
+        Those of the wanted whose values need not be finite.
 
     Returns
     -------
     list of ndarray, shape (count,)
-        The wanted columns: float64, every value finite, or str.
+        The wanted columns: float64, every value finite but for the loose ones, or str.
 
     Raises
     ------
     InputError
         At the first row that breaks a rule.
     """
-    columns = _fast(block, count, len(names), wanted, words) if block.endswith(b"\n") and count else None
-    return columns if columns is not None else _careful(block, count, names, wanted, path, first, words)
+    columns = _fast(block, count, len(names), wanted, words, loose) if block.endswith(b"\n") and count else None
+    return columns if columns is not None else _careful(block, count, names, wanted, path, first, words, loose)
 
 
 def hold_words(block: bytes, candidates: Sequence[int]) -> list[int]:
@@ -71,7 +74,7 @@ def _name(index: int) -> str:
 
 
 def _fast(
-    block: bytes, count: int, width: int, wanted: Sequence[int], words: Collection[int]
+    block: bytes, count: int, width: int, wanted: Sequence[int], words: Collection[int], loose: Collection[int]
 ) -> list[Floats | Words] | None:
     """Rows with one blank between numbers and maybe one at the end; None if anything looks unusual."""
     # the last field is read besides: a short row shows there as a null, a long one as an error or as no null
@@ -97,7 +100,7 @@ def _fast(
             columns.append(column.to_numpy().astype(np.str_))
             continue
         values = column.to_numpy()
-        if not np.abs(values).max() < LARGEST:  # also where a value is NaN
+        if i not in loose and not np.abs(values).max() < LARGEST:  # also where a value is NaN
             return None
         columns.append(values)
     return columns
@@ -111,10 +114,11 @@ def _careful(
     path: str,
     first: int,
     words: Collection[int],
+    loose: Collection[int],
 ) -> list[Floats | Words]:
     """Row by row, any white space, naming the first line that breaks a rule."""
     lines = block.splitlines() if b"\r" in block else block.split(b"\n")
-    if lines and not lines[-1]:
+    while lines and not lines[-1].strip():  # blank lines at the end of a file, or between frames
         lines.pop()
     found: list[list[float] | list[str]] = [[] for _ in wanted]
     for row, line in enumerate(lines[:count]):
@@ -122,7 +126,7 @@ def _careful(
         if len(fields) != len(names):
             raise InputError(path, f"a row must hold {len(names)} numbers, not {len(fields)}", first + row)
         for column, i in zip(found, wanted):
-            column.append(_value(fields[i], i, names, path, first + row, i in words))  # type: ignore[arg-type]
+            column.append(_value(fields[i], i, names, path, first + row, i in words, i in loose))  # type: ignore[arg-type]
     if len(lines) < count:
         raise InputError(path, f"the frame ends after {len(lines)} of {count} rows", first + max(len(lines) - 1, 0))
     if len(lines) > count:
@@ -134,13 +138,13 @@ def _careful(
     ]
 
 
-def _value(field: bytes, i: int, names: Sequence[str], path: str, line: int, word: bool) -> float | str:
+def _value(field: bytes, i: int, names: Sequence[str], path: str, line: int, word: bool, loose: bool) -> float | str:
     if word:
         return field.decode("utf-8", "replace")
     try:
         value = number(field)
     except ValueError:
         raise InputError(path, f"column {i + 1} ({names[i]}) must be a number", line) from None
-    if not abs(value) < LARGEST:
+    if not loose and not abs(value) < LARGEST:
         raise InputError(path, f"column {i + 1} ({names[i]}) must be finite and below {LARGEST:g}", line)
     return value

@@ -1,7 +1,9 @@
-"""Lines of a plain, .gz or .zst file, in bulk, with the line number kept."""
+"""Lines of a plain or packed file (.gz, .bz2, .xz, .zst), in bulk, with the line number kept."""
 
 from __future__ import annotations
 
+import bz2
+import lzma
 import os
 import zlib
 from collections.abc import Callable, Iterator
@@ -36,7 +38,7 @@ class Broken(Exception):
 
 
 class Unpacked:
-    """A .gz or .zst stream that gives all that can be unpacked before it says that the rest is broken.
+    """A packed stream that gives all that can be unpacked before it says that the rest is broken.
 
     Parameters
     ----------
@@ -73,7 +75,7 @@ class Unpacked:
             try:
                 self._touched = True
                 parts.append(self._unpacker.decompress(piece))
-            except (zlib.error, zstandard.ZstdError) as error:
+            except (zlib.error, zstandard.ZstdError, lzma.LZMAError, OSError) as error:
                 self._error = Broken(f"the {self._kind} data are damaged before byte {self._raw.tell():,}: {error}")
                 break
             self._rest = self._unpacker.unused_data if self._unpacker.eof else b""
@@ -175,9 +177,21 @@ class LineSource:
         return b"".join(pieces)
 
 
+PACKED: tuple[tuple[bytes, str, Callable[[], Any]], ...] = (
+    (b"\x1f\x8b", "gzip", lambda: zlib.decompressobj(31)),
+    (b"BZh", "bzip2", bz2.BZ2Decompressor),
+    (b"\xfd7zXZ\x00", "xz", lzma.LZMADecompressor),
+    (b"\x28\xb5\x2f\xfd", "zstd", lambda: zstandard.ZstdDecompressor().decompressobj()),
+)
+"""First bytes of packed files, their kind, and what unpacks them."""
+
+BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+"""Some editors put it before a text."""
+
+
 @contextmanager
 def open_lines(path: str | Path) -> Iterator[LineSource]:
-    """Open a file for reading by lines; .gz and .zst are told by their first bytes.
+    """Open a file for reading by lines; packed ones are told by their first bytes.
 
     Parameters
     ----------
@@ -197,16 +211,15 @@ def open_lines(path: str | Path) -> Iterator[LineSource]:
         raise InputError(name, f"cannot be opened: {getattr(error, 'strerror', None) or error}") from error
     with raw:
         try:
-            magic = raw.read(4)
-            raw.seek(0)
+            magic = raw.read(6)
+            raw.seek(len(BYTE_ORDER_MARK) if magic.startswith(BYTE_ORDER_MARK) else 0)
         except OSError as error:
             raise InputError(name, f"cannot be read: {error.strerror}") from error
         chunk = CHUNK
-        if magic[:2] == b"\x1f\x8b":
-            packed = Unpacked(raw, lambda: zlib.decompressobj(31), "gzip")
-            stream: IO[bytes] = cast(IO[bytes], packed)
-        elif magic == b"\x28\xb5\x2f\xfd":
-            stream = cast(IO[bytes], Unpacked(raw, lambda: zstandard.ZstdDecompressor().decompressobj(), "zstd"))
+        for first, kind, begin in PACKED:
+            if magic.startswith(first):
+                stream: IO[bytes] = cast(IO[bytes], Unpacked(raw, begin, kind))
+                break
         else:
             stream = raw
             chunk = -1 if os.fstat(raw.fileno()).st_size <= AT_ONCE else CHUNK

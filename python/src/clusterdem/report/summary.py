@@ -139,7 +139,7 @@ class Story:
 
 def how_of(run: Run, case: str | None, plane: str) -> observables.How:
     """Size classes of the paper for its cases, else such as follow from the data."""
-    borders = CLASS_BORDERS if case else borders_of(*size_range(run.dumps))
+    borders = CLASS_BORDERS if case else borders_of(*size_range(run.dumps, run.density))
     return observables.How(borders=borders, plane=plane)
 
 
