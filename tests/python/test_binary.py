@@ -54,7 +54,7 @@ def test_a_share_and_some_columns(tmp_path):
 def test_damage_is_told(tmp_path, change, rule):
     (tmp_path / "a").write_bytes(change(binary(random_frame(20, 5, 0.1))))
     with pytest.raises(InputError, match=rule):
-        list(read_file(tmp_path / "a"))
+        list(read_file(tmp_path / "a", NAMES))
 
 
 @pytest.mark.parametrize("options, rule", [({"revision": 1}, "binary2txt"), ({"triclinic": 1}, "orthogonal")])

@@ -160,7 +160,7 @@ def test_a_build_folder_of_another_checkout_is_left_alone(machine, tmp_path):
     cache.write_text(f"CMAKE_HOME_DIRECTORY:INTERNAL={other}\n")
     shutil.rmtree(machine.folder / "build")
     (machine.folder / "build").symlink_to(other / "build")
-    script = "build_plugin() { echo BUILT; }\nbuild_python() { :; }\ncheck_build_is_ours\nbuild_plugin"
+    script = "build=$root/build; source setup/plugin.sh\nbuild_plugin() { echo BUILT; }\nbuild_python() { :; }\ncheck_build_is_ours\nbuild_plugin"
     process = machine.bash(script)
     output = process.communicate(timeout=60)[0]
     assert process.returncode != 0 and f"is the build folder of {other}, too" in output and "BUILT" not in output
