@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..frame import Floats
 
@@ -35,12 +36,18 @@ class GasField:
         Time (s); NaN if unknown.
     path : str
         The file that it was read from, for messages.
+    solid : ndarray of bool, shape (nx, ny, nz), or None
+        Points within solids, where there is no gas; None if there are none.
+    provenance : str
+        Where it is from and how it was made, lines ``name: value``.
     """
 
     axes: Axes
     arrays: Mapping[str, Floats]
     time: float = math.nan
     path: str = "gas"
+    solid: NDArray[np.bool_] | None = None
+    provenance: str = ""
 
     def __getitem__(self, name: str) -> Floats:
         return self.arrays[name]

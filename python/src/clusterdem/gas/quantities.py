@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -11,14 +12,25 @@ from ..errors import InputError
 from ..frame import Floats
 from .axes import Placement
 
-KNOWN_VELOCITIES = (
-    ("velocity",), ("U",), ("Velocity",), ("UGas",), ("U.gas",), ("U.air",),
-    ("x-velocity", "y-velocity", "z-velocity"), ("x-velocity", "y-velocity", "0"),
-    ("X_VELOCITY", "Y_VELOCITY", "Z_VELOCITY"), ("X_VELOCITY", "Y_VELOCITY", "0"),
-    ("SV_U", "SV_V", "SV_W"), ("SV_U", "SV_V", "0"),
-    ("Velocity u", "Velocity v", "Velocity w"), ("u", "v", "w"), ("ux", "uy", "uz"), ("u", "0", "w"), ("ux", "0", "uz"),
+VECTOR_NAMES = (
+    "velocity", "u", "gasvelocity", "velocitygas", "ugas", "uair", "ug", "uf", "fluidvelocity", "velocityvector",
+    "velocityfield", "vel", "umean", "meanvelocity", "velocitymean", "vg", "v",
 )  # fmt: skip
-"""Looked for in this order where no --velocity is given; "0" is a component that is not there."""
+COMPONENT_NAMES = (
+    ("xvelocity", "yvelocity", "zvelocity"), ("velocityx", "velocityy", "velocityz"), ("svu", "svv", "svw"),
+    ("velocityu", "velocityv", "velocityw"), ("velocity[i]", "velocity[j]", "velocity[k]"), ("u", "v", "w"),
+    ("ux", "uy", "uz"), ("vx", "vy", "vz"), ("ug", "vg", "wg"), ("gasvelocityx", "gasvelocityy", "gasvelocityz"),
+    ("velocity0", "velocity1", "velocity2"), ("u0", "u1", "u2"), ("velx", "vely", "velz"),
+    ("umeanx", "umeany", "umeanz"), ("ugx", "ugy", "ugz"),
+)  # fmt: skip
+"""Looked for in this order where no --velocity is given, without regard to capitals, blanks, signs between and units."""
+
+
+def plain(name: str) -> str:
+    """A name without its unit, capitals and what stands between its words: ``Velocity[i] (m/s)`` is ``velocity[i]``."""
+    name = re.sub(r"\s*\((?=[^()]*\)\s*$)[^()]*\)\s*$", "", name)  # (m/s)
+    name = re.sub(r"\s*\[(?![ijk]\])[^\[\]]*\]\s*$", "", name)  # [ m s^-1 ]
+    return re.sub(r"[\s_.:\-]+", "", name).lower()
 
 
 @dataclass(frozen=True)
@@ -49,22 +61,39 @@ class Recipe:
 
     def names(self, path: str, arrays: Mapping[str, Floats]) -> list[str]:
         """Arrays that must be sampled, all of which the source has."""
-        velocity = self._velocity(path, arrays)
-        scalars = (self.energy, self.density, self.viscosity, self.dynamic_viscosity)
-        wanted = [name for name in (*velocity, *self.fluctuation, *scalars) if name and _number(name) is None]
+        wanted = [*self.velocity_names(path, arrays), *self._others()]
         for name in wanted:
-            if name not in arrays:
+            if name not in arrays and _number(name) is None:
                 raise InputError(path, f"has no array '{name}'; it has: {', '.join(sorted(arrays)) or 'none'}")
-        return list(dict.fromkeys(wanted))
+        return list(dict.fromkeys(name for name in wanted if _number(name) is None))
 
-    def _velocity(self, path: str, arrays: Mapping[str, Floats]) -> Sequence[str]:
+    def moving(self, path: str, arrays: Mapping[str, Floats]) -> set[str]:
+        """Those arrays that vanish where nothing moves."""
+        names = {*self.velocity_names(path, arrays), *self.fluctuation, self.energy}
+        return {name for name in names if name in arrays}
+
+    def _others(self) -> list[str]:
+        scalars = (self.energy, self.density, self.viscosity, self.dynamic_viscosity)
+        return [name for name in (*self.fluctuation, *scalars) if name]
+
+    def velocity_names(self, path: str, arrays: Mapping[str, Floats]) -> tuple[str, ...]:
+        """The velocity's array, or those of its three components ("0" for none)."""
         if self.velocity:
-            return self.velocity
-        for names in KNOWN_VELOCITIES:
-            if all(name in arrays or name == "0" for name in names):
-                return names
-        found = ", ".join(sorted(arrays)) or "none"
-        raise InputError(path, f"no array has a usual name of a velocity: give --velocity NAME or U,V,W of: {found}")
+            return tuple(self.velocity)
+        by_name: dict[str, list[str]] = {}
+        for name in arrays:
+            by_name.setdefault(plain(name), []).append(name)
+        vectors = {k: [n for n in v if arrays[n].ndim == 2 and arrays[n].shape[1] > 1] for k, v in by_name.items()}
+        scalars = {k: [n for n in v if n not in vectors[k]] for k, v in by_name.items()}
+        for kind in VECTOR_NAMES:
+            if vectors.get(kind):
+                return (vectors[kind][0],)
+        for kinds in COMPONENT_NAMES:
+            found = [scalars.get(kind, ["0"])[0] if scalars.get(kind) else "0" for kind in kinds]
+            if sum(name != "0" for name in found) >= 2:
+                return tuple(found)
+        listed = ", ".join(sorted(arrays)) or "none"
+        raise InputError(path, f"no array has a usual name of a velocity: give --velocity NAME or U,V,W of: {listed}")
 
     def gas(self, path: str, samples: Mapping[str, Floats], placement: Placement) -> dict[str, Floats]:
         """The gas's arrays at N points, from the samples there.
@@ -73,7 +102,7 @@ class Recipe:
         Flows, 2000, section 5.3). The engine draws uniformly from −a to a, whose r.m.s. is a/√3, so that
         a = √3 u' = √(2k).
         """
-        velocity = self.speed * _vector(path, self._velocity(path, samples), samples, "velocity")
+        velocity = self.speed * _vector(path, self.velocity_names(path, samples), samples, "velocity")
         arrays = {"velocity": placement.turned(velocity)}
         if self.energy:
             k = _scalar(path, self.energy, samples)
