@@ -33,8 +33,8 @@ class Patch:
     ----------
     name : str
         Its name.
-    wall : bool
-        Whether it is a wall.
+    kind : str
+        "wall", "wedge", "empty" and so on, as OpenFOAM names kinds; "patch" if nothing is known.
     faces : sequence of ndarray of int
         Points of each of its faces (edges), as :class:`Facets` numbers them.
     values : mapping of str to ndarray
@@ -45,10 +45,15 @@ class Patch:
     """
 
     name: str
-    wall: bool
+    kind: str
     faces: Sequence[Ints]
     values: Arrays
     how: Callable[[str], str]
+
+    @property
+    def wall(self) -> bool:
+        """Whether it is a wall."""
+        return self.kind == "wall"
 
 
 @dataclass(eq=False)
@@ -62,12 +67,15 @@ class CellSource(Source):
     patches : sequence of Patch
         What is known of its surface.
     at_points : mapping of str to ndarray, shape (P,) or (P, k)
-        Arrays that are known at the points of the mesh instead.
+        Arrays that are known at the points of the mesh, too: they hold at its surface where no patch has a value.
+    not_in_cells : frozenset of str
+        Those of them that are known there alone.
     """
 
     facets: Facets = None  # type: ignore[assignment]
     patches: Sequence[Patch] = ()
     at_points: Arrays = field(default_factory=dict)
+    not_in_cells: frozenset[str] = frozenset()
 
     def __post_init__(self) -> None:
         kept = []
@@ -161,7 +169,7 @@ class CellSource(Source):
     def _at_nodes(self, name: str) -> Floats:
         facets = self.facets
         shape = self.arrays[name].shape[1:]
-        if name in self.at_points:
+        if name in self.not_in_cells:
             points = self.at_points[name].reshape(len(facets.points), -1)
             middle = facets.mean(points)
             cell, point = facets.incidence()
@@ -173,9 +181,21 @@ class CellSource(Source):
             slope = gradients(facets.points, self.points, cell, point, inside)
             points = continued(facets.points, self.points, cell, point, inside, slope)
             middle = self._at_middles(inside, slope)
+            if name in self.at_points:
+                outside = self._outside
+                on = np.unique(facets.corners[outside[facets.facet]])
+                points[on] = self.at_points[name].reshape(len(facets.points), -1)[on]
+                middle[outside] = facets.mean(points)[outside]
             for facet, value in self._at_patches(name, points, middle):
                 middle[facet] = value
         return np.concatenate([points, inside, middle]).reshape(-1, *shape)
+
+    @cached_property
+    def _outside(self) -> NDArray[np.bool_]:
+        """Facets that have a cell on one side alone."""
+        _, same, count = np.unique(self.facets.keys, return_inverse=True, return_counts=True)
+        once: NDArray[np.bool_] = count[same] == 1
+        return once
 
     def _at_middles(self, inside: Floats, slope: Floats) -> Floats:
         """At the middles of facets, from the cells on both sides; those at the surface have one."""
@@ -204,11 +224,11 @@ class CellSource(Source):
                     value = np.zeros((len(patch.faces), points.shape[1]))
                     if not no_slip:
                         value += patch.values[name].reshape(len(patch.faces), -1)
-                    fixed.append((self._facets_of(patch), value))
+                    fixed.append((self.facets_of(patch), value))
                     value = value[rows]
                 elif how == "slide" and points.shape[1] == 3:
                     normal = self._normals(patch)
-                    of = self._facets_of(patch)
+                    of = self.facets_of(patch)
                     fixed.append((of, _along(middle[of], normal)))
                     value = _along(points[corners], normal[rows])
                 else:
@@ -227,14 +247,15 @@ class CellSource(Source):
         starts = np.concatenate([[0], np.cumsum([len(face) for face in patch.faces])])
         return self.facets.key(np.concatenate(patch.faces), starts)
 
-    def _facets_of(self, patch: Patch) -> Ints:
+    def facets_of(self, patch: Patch) -> Ints:
+        """The facets of a patch's faces."""
         keys = self.facets.keys
         order = np.argsort(keys)
         return order[np.searchsorted(keys, self._keys(patch), sorter=order)]
 
     def _normals(self, patch: Patch) -> Floats:
         facets = self.facets
-        of = self._facets_of(patch)
+        of = self.facets_of(patch)
         if facets.flat:
             ends = np.stack([facets.corners[facets.starts[of]], facets.corners[facets.starts[of] + 1]], axis=1)
             along = facets.points[ends[:, 1]] - facets.points[ends[:, 0]]
@@ -247,7 +268,7 @@ class CellSource(Source):
                 ]
             )
         else:
-            normal = facets.areas()[of]
+            normal = facets.areas()[0][of]
         unit: Floats = normal / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
         return unit
 

@@ -87,36 +87,41 @@ class Facets:
         following[self.starts[1:] - 1] = self.starts[:-1]
         return self.facet, self.corners, self.corners[following]
 
-    def areas(self) -> Floats:
-        """Area vectors of faces, shape (F, 3), as OpenFOAM has them: of the fan about the mean of the points."""
+    def areas(self) -> tuple[Floats, Floats]:
+        """Area vectors and centroids of faces, each of shape (F, 3), by their fans about the mean of their points.
+
+        As OpenFOAM's ``primitiveMesh::makeFaceCentresAndAreas`` has them, whose cells' centres values belong to.
+        """
         facet, a, b = self.fans()
-        middle = self.mean(self.points)[facet]
-        parts = 0.5 * np.cross(self.points[a] - middle, self.points[b] - middle)
-        return np.stack([np.bincount(facet, parts[:, k], len(self.cell)) for k in range(3)], axis=1)
+        count = len(self.cell)
+        middle = self.mean(self.points)
+        p, q, m = self.points[a], self.points[b], middle[facet]
+        parts = 0.5 * np.cross(p - m, q - m)
+        sizes = np.linalg.norm(parts, axis=1)
+        whole = np.bincount(facet, sizes, count)[:, None]
+        moment = _sum(facet, sizes[:, None] * (p + q + m) / 3, count)
+        return _sum(facet, parts, count), np.divide(moment, whole, out=middle, where=whole > 0)
 
     def centres(self) -> Floats:
-        """Centroids of the cells, shape (C, 3): of their pyramids upon the fans of their facets."""
-        facet, a, b = self.fans()
-        if self.flat:  # an edge has one triangle, not two
-            once = np.arange(len(facet)) % 2 == 0
-            facet, a, b = facet[once], a[once], b[once]
-        cell = self.cell[facet]
-        rough = _mean(self.cell[self.facet], self.points[self.corners], self.cells)
-        origin = rough[cell]
-        p, q = self.points[a] - origin, self.points[b] - origin
-        if self.flat:
-            normal = np.cross(p, q)
-            total = _sum(cell, normal, self.cells)
-            size = np.einsum("ij,ij->i", normal, total[cell])
-            middle = (p + q) / 3
+        """Centres of the cells, shape (C, 3): of the pyramids upon their faces (triangles upon their edges).
+
+        As OpenFOAM's ``primitiveMesh::makeCellCentresAndVols``; the centroid where faces are plane.
+        """
+        if self.flat:  # each edge once, in the direction of its polygon
+            ends = self.corners.reshape(-1, 2)
+            middle = (self.points[ends[:, 0]] + self.points[ends[:, 1]]) / 2
+            rough = _mean(self.cell, middle, self.cells)
+            normal = np.cross(self.points[ends[:, 0]] - rough[self.cell], self.points[ends[:, 1]] - rough[self.cell])
+            total = _sum(self.cell, normal, self.cells)
+            size, share = np.einsum("ij,ij->i", normal, total[self.cell]), 2 / 3
         else:
-            face = self.mean(self.points)[facet] - origin
-            size = np.einsum("ij,ij->i", np.cross(p, q), face)
-            size = np.abs(size)  # whichever way the face turns
-            middle = (p + q + face) / 4
-        whole = np.bincount(cell, size, self.cells)
-        moment = _sum(cell, size[:, None] * middle, self.cells)
-        return rough + np.divide(moment, whole[:, None], out=np.zeros_like(rough), where=whole[:, None] != 0)
+            area, middle = self.areas()
+            rough = _mean(self.cell, middle, self.cells)
+            # whichever way the face turns
+            size, share = np.abs(np.einsum("ij,ij->i", area, middle - rough[self.cell])), 3 / 4
+        whole = np.bincount(self.cell, size, self.cells)[:, None]
+        moment = _sum(self.cell, size[:, None] * share * (middle - rough[self.cell]), self.cells)
+        return rough + np.divide(moment, whole, out=np.zeros_like(rough), where=whole != 0)
 
 
 def _sum(index: Ints, values: Floats, count: int) -> Floats:

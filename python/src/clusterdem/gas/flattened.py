@@ -1,117 +1,110 @@
-"""OpenFOAM cases one cell thick, as what they stand for: a plane between ``empty`` patches, a body of revolution between
-``wedge`` patches.
+"""Meshes one cell thick, as what they stand for: a plane (OpenFOAM: between ``empty`` patches), or a body of revolution
+(between ``wedge`` patches).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
-from scipy.spatial import KDTree
+from numpy.typing import NDArray
 
 from ..frame import Floats
 from .cells import CellSource, Patch
-from .facets import Facets, Ints, facets_of
-from .openfoam import Conditions
+from .facets import Facets, Ints
 from .revolve import Axis, Revolved
 from .sources import ROUNDING, Source
 
 
-@dataclass(frozen=True)
-class Block:
-    """A part of a case as VTK gives it.
+def one_layer(source: CellSource) -> Source:
+    """The plane or the body of revolution of a mesh one cell thick; other meshes as they are.
 
-    Parameters
-    ----------
-    name, kind : str
-        Of a patch; "internalMesh" and "" of the cells.
-    mesh : pyvista.DataSet
-        Cells with their values, or faces with theirs.
+    A plane is made where all points lie in two planes across an axis, and nothing is known at these.
     """
-
-    name: str
-    kind: str
-    mesh: Any
-
-
-def numbers(data: Any) -> dict[str, Floats]:
-    """The arrays of numbers of cells or of points."""
-    return {name: np.array(v, np.float64) for name, v in data.items() if v.dtype.kind in "fiu"}
-
-
-def flattened(path: str, time: float, cells: int, patches: Sequence[Block], conditions: Conditions) -> Source | None:
-    """The plane or the body of revolution; None if the case is neither.
-
-    VTK gives an ``empty`` or ``wedge`` patch the values of the cells behind it, so that one of the two sides is the whole
-    case. Those of a wedge hold in the plane midway between its sides.
-    """
-    wedges = [block for block in patches if block.kind == "wedge" and block.mesh.n_cells]
-    if len(wedges) == 2 and wedges[0].mesh.n_cells == cells:
-        side, (front, back) = wedges[0].mesh, (_normal(block.mesh) for block in wedges)
-        axis = _axis(front, back, side, wedges[1].mesh)
-    else:
-        axis = None
-        found = _one_side([block.mesh for block in patches if block.kind == "empty"], cells)
-        if found is None:
-            return None
-        side = found
-    others = [block for block in patches if block.kind not in ("empty", "wedge") and block.mesh.n_cells]
-    facets = facets_of(side.cast_to_unstructured_grid())
-    edges = [_edges(block, facets, conditions) for block in others]
-    if axis is None:
-        return CellSource(path, numbers(side.cell_data), facets.centres(), time, facets=facets, patches=edges)
-    facets = replace(facets, points=axis.fold(facets.points))
-    edges.append(_on_axis(facets, axis))
-    plane = CellSource(path, numbers(side.cell_data), facets.centres(), time, facets=facets, patches=edges)
-    return Revolved(path, plane.arrays, plane.points, time, inner=plane, axis=axis)
+    facets = source.facets
+    if facets.flat or source.not_in_cells:
+        return source
+    wedges = [patch for patch in source.patches if patch.kind == "wedge" and len(patch.faces)]
+    if len(wedges) == 2 and len(wedges[0].faces) == facets.cells:
+        return _revolved(source, *wedges)
+    low, high = source.bounds
+    rounding = ROUNDING * float(np.max(high - low))
+    for k in range(3):
+        lower, upper = (np.abs(facets.points[:, k] - end[k]) <= rounding for end in (low, high))
+        if not np.all(lower | upper) or _known_at(source, lower, upper):
+            continue
+        side = np.flatnonzero(np.bincount(facets.facet, ~lower[facets.corners], len(facets.cell)) == 0)
+        if np.array_equal(facets.cell[side], np.arange(facets.cells)):
+            plane = _side(source, side)
+            return replace(plane, points=plane.facets.centres())
+    return source
 
 
-def _one_side(leaves: list[Any], cells: int) -> Any:
-    """Those faces of ``empty`` patches that look to one of the two sides, if they are as many as there are cells."""
-    leaves = [leaf for leaf in leaves if leaf.n_cells]
-    if sum(leaf.n_cells for leaf in leaves) != 2 * cells:
-        return None
-    whole = leaves[0].merge(leaves[1:], merge_points=False) if len(leaves) > 1 else leaves[0]
-    normals = np.asarray(whole.extract_surface(algorithm=None).face_normals, np.float64)
-    along = int(np.argmax(np.abs(normals).sum(axis=0)))
-    one = np.flatnonzero(normals[:, along] > 0)
-    return whole.extract_cells(one) if len(one) == cells else None
+def _known_at(source: CellSource, *planes: NDArray[np.bool_]) -> bool:
+    """Whether a patch that lies in one of the planes has values."""
+    for patch in source.patches:
+        inside = any(plane[face].all() for plane in planes for face in patch.faces)
+        if inside and any(patch.how(name) != "open" for name in patch.values):
+            return True
+    return False
 
 
-def _normal(mesh: Any) -> Floats:
-    total: Floats = np.asarray(mesh.face_normals, np.float64).mean(axis=0)
-    return total / np.linalg.norm(total)
+def _side(source: CellSource, side: Ints) -> CellSource:
+    """The polygons that some facets are, one of each cell in order, with its values; patches by their edges there."""
+    facets = source.facets
+    chosen = np.zeros(len(facets.cell), bool)
+    chosen[side] = True
+    _, a, b = (column[chosen[facets.facet]] for column in facets.fans())
+    used, at = np.unique(np.stack([a, b], axis=1), return_inverse=True)
+    cell = np.repeat(np.arange(facets.cells), facets.sizes[side])
+    starts = 2 * np.arange(len(a) + 1)
+    plane = Facets(facets.points[used], at.ravel().astype(np.int64), starts, cell, facets.cells, True)
+    number = np.full(len(facets.points), -1)
+    number[used] = np.arange(len(used))
+    at_points = {name: values[used] for name, values in source.at_points.items()}
+    patches = [_edges(patch, number) for patch in source.patches]
+    return replace(source, facets=plane, patches=patches, at_points=at_points)
 
 
-def _axis(front: Floats, back: Floats, side: Any, other: Any) -> Axis:
+def _edges(patch: Patch, number: Ints) -> Patch:
+    """The edges that a patch's faces have among the points of a plane, numbered from 0, −1 for others."""
+    edges = [number[face][number[face] >= 0] for face in patch.faces]
+    rows = [k for k, edge in enumerate(edges) if edge.size == 2]
+    values = {name: values[rows] for name, values in patch.values.items()}
+    return replace(patch, faces=[edges[k] for k in rows], values=values)
+
+
+def _revolved(source: CellSource, front: Patch, back: Patch) -> Revolved:
+    """The body that a wedge is a part of. Its cells' values hold in the plane midway between the two sides."""
+    axis = _axis(source, front, back)
+    side = source.facets_of(front)
+    side = side[np.argsort(source.facets.cell[side])]
+    plane = _side(source, side)
+    facets = replace(plane.facets, points=axis.fold(plane.facets.points))
+    patches = [*plane.patches, _on_axis(facets, axis)]
+    plane = replace(plane, facets=facets, points=axis.fold(source.points), patches=patches)
+    return Revolved(source.path, source.arrays, plane.points, source.time, inner=plane, axis=axis)
+
+
+def _axis(source: CellSource, front: Patch, back: Patch) -> Axis:
     """Where the planes of the two sides meet, and the direction midway between them."""
-    along = np.cross(front, back)
+    normals, places = [], []
+    for patch in (front, back):
+        of = source.facets_of(patch)
+        areas, middles = source.facets.areas()
+        away = middles[of] - source.points[source.facets.cell[of]]
+        areas = areas[of] * np.sign(np.einsum("ij,ij->i", areas[of], away))[:, None]
+        total: Floats = areas.sum(axis=0)
+        normals.append(total / np.linalg.norm(total))
+        places.append(middles[of].mean(axis=0))
+    along = np.cross(*normals)
     along /= np.linalg.norm(along)
     along *= 1.0 if along[np.argmax(np.abs(along))] > 0 else -1.0
-    p, q = (np.asarray(mesh.points, np.float64).mean(axis=0) for mesh in (side, other))
-    origin = np.linalg.solve(np.stack([front, back, along]), np.array([front @ p, back @ q, 0.0]))
-    middle = (p + q) / 2 - origin
+    heights = np.array([*(n @ p for n, p in zip(normals, places)), 0.0])
+    origin = np.linalg.solve(np.stack([*normals, along]), heights)
+    middle = (places[0] + places[1]) / 2 - origin
     middle -= (middle @ along) * along
     return Axis(origin, along, middle / np.linalg.norm(middle))
-
-
-def _edges(block: Block, facets: Facets, conditions: Conditions) -> Patch:
-    """The edges that a patch's faces have in the plane."""
-    mesh = block.mesh
-    size = float(np.max(np.ptp(facets.points, axis=0)))
-    _, at = KDTree(facets.points).query(np.asarray(mesh.points), distance_upper_bound=ROUNDING * size)
-    faces: list[Ints] = []
-    rows = []
-    for k, face in enumerate(mesh.regular_faces if mesh.is_all_triangles else mesh.irregular_faces):
-        ends = np.unique(at[face][at[face] < len(facets.points)])
-        if ends.size == 2:
-            faces.append(ends.astype(np.int64))
-            rows.append(k)
-    values = {name: v[rows] for name, v in numbers(mesh.cell_data).items()}
-    how = {name: conditions.at(name, block.name) for name in values}
-    return Patch(block.name, block.kind == "wall", faces, values, how.__getitem__)
 
 
 def _on_axis(facets: Facets, axis: Axis) -> Patch:
@@ -119,4 +112,4 @@ def _on_axis(facets: Facets, axis: Axis) -> Patch:
     size = float(np.max(np.ptp(facets.points, axis=0)))
     on = axis.radius(facets.points) < ROUNDING * size
     ends = facets.corners.reshape(-1, 2)
-    return Patch("axis", False, list(ends[on[ends].all(axis=1)]), {}, lambda _: "slide")
+    return Patch("axis", "axis", list(ends[on[ends].all(axis=1)]), {}, lambda _: "slide")

@@ -18,7 +18,7 @@ from ..errors import InputError
 from ..frame import Floats
 from .cells import CellSource, Patch
 from .facets import Facets, Ints, facets_of, is_linear
-from .flattened import Block, flattened, numbers
+from .flattened import one_layer
 from .openfoam import Conditions, FoamCase, Times
 from .sources import ROUNDING, Source, cell_grid, from_points, grid_source
 
@@ -33,6 +33,28 @@ def pyvista() -> Any:
         rule = "needs pyvista, which is not installed: pip install 'clusterdem[gas]' (or ./run setup)"
         raise InputError("clusterdem gas make", f"this kind of file {rule} ({error})") from error
     return pyvista
+
+
+@dataclass(frozen=True)
+class Block:
+    """A patch as VTK gives it.
+
+    Parameters
+    ----------
+    name, kind : str
+        Its name, and "wall", "wedge", "empty" and so on.
+    mesh : pyvista.DataSet
+        Its faces with their values.
+    """
+
+    name: str
+    kind: str
+    mesh: Any
+
+
+def numbers(data: Any) -> dict[str, Floats]:
+    """The arrays of numbers of cells or of points."""
+    return {name: np.array(v, np.float64) for name, v in data.items() if v.dtype.kind in "fiu"}
 
 
 @dataclass(eq=False)
@@ -178,10 +200,10 @@ def _foam_source(path: str, blocks: Any, time: float, conditions: Conditions) ->
     mesh = inside[0] if len(inside) == 1 else pv.MultiBlock(inside).combine()
     if not mesh.cell_data:
         raise InputError(path, "holds a mesh, but no field: run the solver, or another --time")
-    return flattened(path, time, mesh.n_cells, patches, conditions) or _cells(path, mesh, time, patches, conditions)
+    return _cells(path, mesh, time, patches, conditions)
 
 
-def _cells(path: str, mesh: Any, time: float, surfaces: list[Block], conditions: Conditions | None) -> CellSource:
+def _cells(path: str, mesh: Any, time: float, surfaces: list[Block], conditions: Conditions | None) -> Source:
     """A source that splits its cells; what is known at points of the mesh stays so."""
     facets = facets_of(mesh)
     cells, points = numbers(mesh.cell_data), numbers(mesh.point_data)
@@ -190,10 +212,15 @@ def _cells(path: str, mesh: Any, time: float, surfaces: list[Block], conditions:
     if points:
         _, at = KDTree(np.asarray(mesh.points)).query(facets.points)
         points = {name: values[at] for name, values in points.items()}
+    not_in_cells = frozenset(set(points) - set(cells))
+    if not_in_cells:
         nearest = tree.query(centres)[1]
-        cells |= {name: values[nearest] for name, values in points.items()}  # of nothing but their shape
+        cells |= {name: points[name][nearest] for name in not_in_cells}  # for the nearest value alone
     patches = [_patch(block, facets, tree, conditions) for block in surfaces]
-    return CellSource(path, cells, centres, time, facets=facets, patches=patches, at_points=points)
+    source = CellSource(
+        path, cells, centres, time, facets=facets, patches=patches, at_points=points, not_in_cells=not_in_cells
+    )
+    return one_layer(source)
 
 
 def _patch(block: Block, facets: Facets, tree: KDTree, conditions: Conditions | None) -> Patch:
@@ -207,8 +234,8 @@ def _patch(block: Block, facets: Facets, tree: KDTree, conditions: Conditions | 
             faces.append(at[face].astype(np.int64))
             rows.append(k)
     values = {name: v[rows] for name, v in numbers(mesh.cell_data).items()}
-    how = {name: conditions.at(name, block.name) if conditions else "value" for name in values}
-    return Patch(block.name, block.kind == "wall", faces, values, lambda name: how.get(name, "open"))
+    how = {name: "value" if conditions is None else conditions.at(name, block.name) for name in values}
+    return Patch(block.name, block.kind, faces, values, lambda name: how.get(name, "open"))
 
 
 def _source(path: Path, data: Any, time: float) -> Source:
@@ -233,8 +260,7 @@ def _source(path: Path, data: Any, time: float) -> Source:
         if not cells:
             return grid_source(str(path), (x, y, z), points, time)
     mesh = _highest(data.cast_to_unstructured_grid())
-    polyhedra = 42 in mesh.celltypes
-    if not (set(cells) - set(points) or polyhedra):
+    if not cells and 42 not in mesh.celltypes:
         return MeshSource(str(path), points, np.asarray(mesh.points, np.float64), time, mesh=mesh)
     if not is_linear(mesh):
         mesh = mesh.linear_copy()  # cells of a higher order by their corners

@@ -222,6 +222,8 @@ class Conditions:
     def at(self, array: str, patch: str) -> str:
         """How an array goes on to a patch: "value" (the file has it), "slide" (its part along the face), "open"."""
         kind, groups = self.kinds.get(patch, ("patch", ()))
+        if kind == "empty":
+            return "open"
         if kind in SLIDING:
             return "slide"
         if array not in self._read:
