@@ -57,7 +57,7 @@ def test_openfoams_own_sampling(layout):
     x, y, _ = points.T
     corner = ((x < 0.025) | (x > 0.275)) & ((y < 0.03) | (y > 0.57))
     apart = np.linalg.norm(found["U"] - velocity, axis=1)[~corner]
-    assert len(apart) > 140 and np.sqrt(np.mean(apart**2)) < 0.015 and apart.max() < 0.05
+    assert len(apart) > 130 and np.sqrt(np.mean(apart**2)) < 0.015 and apart.max() < 0.05
     assert np.abs(found["k"] - energy).max() < 0.1 * energy.max()
 
 

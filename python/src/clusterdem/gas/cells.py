@@ -20,6 +20,7 @@ from ..frame import Floats
 from .facets import Facets, Ints
 from .reconstruct import continued, gradients
 from .sources import ROUNDING, Arrays, Source
+from .zones import outer_facets
 
 CELLS_AT_ONCE = 100_000
 """How many cells are split at a time: 24 tetrahedra of each hexahedron take some 1 kB."""
@@ -193,8 +194,8 @@ class CellSource(Source):
     @cached_property
     def _outside(self) -> NDArray[np.bool_]:
         """Facets that have a cell on one side alone."""
-        _, same, count = np.unique(self.facets.keys, return_inverse=True, return_counts=True)
-        once: NDArray[np.bool_] = count[same] == 1
+        once = np.zeros(len(self.facets.cell), bool)
+        once[outer_facets(self.facets)] = True
         return once
 
     def _at_middles(self, inside: Floats, slope: Floats) -> Floats:

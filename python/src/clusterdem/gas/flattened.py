@@ -97,7 +97,7 @@ def _axis(source: CellSource, front: Patch, back: Patch) -> Axis:
         total: Floats = areas.sum(axis=0)
         normals.append(total / np.linalg.norm(total))
         places.append(middles[of].mean(axis=0))
-    along = np.cross(*normals)
+    along = np.cross(normals[0], normals[1])
     along /= np.linalg.norm(along)
     along *= 1.0 if along[np.argmax(np.abs(along))] > 0 else -1.0
     heights = np.array([*(n @ p for n, p in zip(normals, places)), 0.0])

@@ -21,6 +21,7 @@ from .facets import Facets, Ints, facets_of, is_linear
 from .flattened import one_layer
 from .openfoam import Conditions, FoamCase, Times
 from .sources import ROUNDING, Source, cell_grid, from_points, grid_source
+from .zones import faces_of_zones
 
 TIME_NAMES = ("TIME", "TimeValue", "time", "Time")
 
@@ -143,6 +144,8 @@ def _reader(path: Path) -> Any:
         raise InputError(path, "does not exist")
     if path.suffix == ".msh":  # VTK has no reader for it
         return _Meshio(pv, path)
+    if path.suffix in (".xdmf", ".xmf"):
+        return _quietly(path, lambda: _Xdmf(pv, path))
     if path.suffix == ".dat" and (case := path.with_suffix(".cas")).exists():  # Fluent: the data beside its case
         path = case
     return _quietly(path, lambda: pv.get_reader(str(path)))
@@ -154,6 +157,27 @@ class _Meshio:
 
     def read(self) -> Any:
         return self.pv.read_meshio(str(self.path))
+
+
+class _Xdmf:
+    """VTK's reader, also of files without a time, at which that of pyvista fails."""
+
+    def __init__(self, pv: Any, path: Path) -> None:
+        from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+        from vtkmodules.vtkIOXdmf2 import vtkXdmfReader
+
+        self.pv, self.reader = pv, vtkXdmfReader()
+        self.reader.SetFileName(str(path))
+        self.reader.UpdateInformation()
+        steps = self.reader.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.TIME_STEPS())
+        self.time_values = list(steps or ())
+
+    def set_active_time_value(self, time: float) -> None:
+        self.reader.UpdateTimeStep(time)
+
+    def read(self) -> Any:
+        self.reader.Update()
+        return self.pv.wrap(self.reader.GetOutputDataObject(0))
 
 
 def _read_openfoam(path: Path, times: Times) -> Iterator[Source]:
@@ -216,7 +240,10 @@ def _cells(path: str, mesh: Any, time: float, surfaces: list[Block], conditions:
     if not_in_cells:
         nearest = tree.query(centres)[1]
         cells |= {name: points[name][nearest] for name in not_in_cells}  # for the nearest value alone
-    patches = [_patch(block, facets, tree, conditions) for block in surfaces]
+    patches = [_patch(block, facets, tree, conditions) for block in surfaces if block.mesh.max_cell_dimensionality == 2]
+    zones = {block.name: block.mesh for block in surfaces if block.mesh.max_cell_dimensionality == 3}
+    for name, faces in faces_of_zones(facets, centres, zones).items() if zones else ():
+        patches.append(Patch(name, "wall" if "wall" in name else "patch", faces, {}, lambda _: "open"))
     source = CellSource(
         path, cells, centres, time, facets=facets, patches=patches, at_points=points, not_in_cells=not_in_cells
     )
@@ -295,6 +322,8 @@ def _joined(path: Path, pv: Any, blocks: Any) -> tuple[Any, list[Block]]:
     surfaces = [
         Block(name, "wall" if "wall" in name.lower() else "patch", leaf.extract_surface(algorithm=None))
         for name, leaf in named
-        if leaf.max_cell_dimensionality == most - 1 == 2 and not name.endswith(":interior")
+        if leaf.max_cell_dimensionality == most - 1 == 2
     ]
+    inner = (":fluid", ":solid", ":interior")
+    surfaces += [Block(name, "", leaf) for name, leaf in named if fluid and not name.endswith(inner)]
     return leaves[0] if len(leaves) == 1 else pv.MultiBlock(leaves).combine(merge_points=True), surfaces

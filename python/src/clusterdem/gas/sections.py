@@ -61,16 +61,13 @@ def balance(gas: GasField) -> Balance:
     """
     flow = _momentum(gas)
     worst = Balance(0.0, "z", float(gas.axes[2][0]))
-    largest = max(
-        (float(np.max(_across(np.abs(flow[..., k]), gas.axes, k))) for k in range(3) if gas.axes[k].size > 1),
-        default=0.0,
-    )
+    long = [k for k in range(3) if gas.axes[k].size > 1]
+    passing = {k: float(np.max(_across(np.abs(flow[..., k]), gas.axes, k))) for k in long}
+    largest = max(passing.values(), default=0.0)
     if largest == 0:
         return worst
-    for k in range(3):
+    for k in sorted(long, key=lambda k: -passing[k]):  # the main direction first: it is named where others are as bad
         axis = gas.axes[k]
-        if axis.size < 2:
-            continue
         through = _across(flow[..., k], gas.axes, k)
         aside = np.zeros(axis.size)
         for other in range(3):
@@ -80,7 +77,7 @@ def balance(gas: GasField) -> Balance:
         lost = np.concatenate([[0.0], np.cumsum(0.5 * (aside[1:] + aside[:-1]) * np.diff(axis))])
         change = through - through[0] + lost
         span = float(np.ptp(change)) / largest
-        if span > worst.change:
+        if span > worst.change * (1 + 1e-6):
             worst = Balance(span, "xyz"[k], float(axis[np.argmax(np.abs(change))]))
     return worst
 
