@@ -340,8 +340,8 @@ def test_flux_is_kept(tmp_path, command):
     assert "warning: flux through the ends of the grid" in err and "0.1875 for 0.19" in err and "--keep-flux" in err
     (gas,), err = made(command, tmp_path / "g.vtk", path, "--grid", 5, 4, "--keep-flux")
     flux = np.trapezoid(gas["velocity"][:, 0, :, 2], gas.axes[0], axis=0)
-    # the source is asked on 32 intervals
-    np.testing.assert_allclose(flux, 0.2 * (1 - 1 / 32**2), rtol=1e-3)
+    # the source is asked on 128 intervals
+    np.testing.assert_allclose(flux, 0.2 * (1 - 1 / 128**2), rtol=2e-4)
     np.testing.assert_array_equal(gas["velocity"][[0, -1]], 0)
 
 

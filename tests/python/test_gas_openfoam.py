@@ -129,6 +129,18 @@ def test_walls_have_the_value_of_the_file(tmp_path, command):
     assert gas["fluctuation"].min() > 0.3  # √(2k), k 0.0625 and more
 
 
+def test_flux_of_the_cells(tmp_path, command):
+    """5 m/s through 0.3 m in each section, which is what the solver conserves; between walls at rest, linear interpolation
+    has less."""
+    (gas,), err = make(command, RECORDED / "chan_whole", tmp_path / "g.vtk", *UP, *FINE)
+    assert "warning: flux through the ends of the grid" in err
+    assert np.trapezoid(gas["velocity"][:, 0, 60, 2], gas.axes[0]) == pytest.approx(1.435, abs=0.015)
+    (gas,), _ = make(command, RECORDED / "chan_whole", tmp_path / "g.vtk", *UP, *FINE, "--keep-flux")
+    flux = np.trapezoid(gas["velocity"][:, 0, :, 2], gas.axes[0], axis=0)
+    np.testing.assert_allclose(flux, 1.5, rtol=0.01)
+    np.testing.assert_allclose(gas["velocity"][[0, -1]], 0, atol=1e-6)
+
+
 def with_condition(case, condition):
     """The walls of a synthetic case get another condition."""
     for path in case.glob("[0-9]*/U"):

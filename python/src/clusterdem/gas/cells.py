@@ -101,30 +101,41 @@ class CellSource(Source):
         return [patch.name for patch in walls if any(patch.how(name) == "open" for name in names)]
 
     def sample(self, places: Floats, names: Iterable[str]) -> dict[str, Floats]:
-        names = list(names)
+        return self._found(places, {name: self._at_nodes(name) for name in names})[0]
+
+    def means(self, places: Floats, names: Iterable[str]) -> dict[str, Floats]:
+        _, cell = self._found(places, {})
+        found = {}
+        for name in names:
+            found[name] = self.arrays[name][cell]
+            found[name][cell < 0] = np.nan
+        return found
+
+    def _found(self, places: Floats, nodes: Arrays) -> tuple[dict[str, Floats], Ints]:
+        """Values at places from those at the nodes, and the cell of each; NaN and −1 outside."""
         places = self.snapped(places)
         if self.facets.flat:  # the plane's own coordinate, whatever the rounding
             low, high = self.bounds
             thin = high - low <= ROUNDING * np.max(high - low)
             places = np.where(thin, low, places)
-        nodes = {name: self._at_nodes(name) for name in names}
-        found = {name: np.full((len(places), *self.arrays[name].shape[1:]), np.nan) for name in names}
+        found = {name: np.full((len(places), *values.shape[1:]), np.nan) for name, values in nodes.items()}
+        of_cell = np.full(len(places), -1)
         missing = np.arange(len(places))
         for cells in np.array_split(np.arange(self.facets.cells), -(-self.facets.cells // CELLS_AT_ONCE)):
-            missing = self._sample_cells(cells, places, missing, nodes, found)
-        return found
+            missing = self._sample_cells(cells, places, missing, nodes, found, of_cell)
+        return found, of_cell
 
     def _sample_cells(
-        self, cells: Ints, places: Floats, missing: Ints, nodes: Arrays, found: dict[str, Floats]
+        self, cells: Ints, places: Floats, missing: Ints, nodes: Arrays, found: dict[str, Floats], of_cell: Ints
     ) -> Ints:
         """Fill in what lies in some of the cells; the rest is still missing."""
         from .meshes import pyvista
 
         pv = pyvista()
-        used, simplices = self._simplices(int(cells[0]), int(cells[-1]))
-        corners = self._nodes[used]
         low, high = self.bounds
         margin = ROUNDING * float(np.max(high - low))
+        begin, end = np.searchsorted(self.facets.cell, [cells[0], cells[-1] + 1])
+        corners = self.facets.points[self.facets.corners[self.facets.starts[begin] : self.facets.starts[end]]]
         near = np.all(
             (places[missing] >= corners.min(axis=0) - margin) & (places[missing] <= corners.max(axis=0) + margin),
             axis=1,
@@ -132,10 +143,12 @@ class CellSource(Source):
         asked = missing[near]
         if not asked.size:
             return missing
+        used, simplices, owner = self._simplices(int(begin), int(end))
         kind = 5 if self.facets.flat else 10
         wide = simplices.shape[1]
         stream = np.concatenate([np.full((len(simplices), 1), wide), simplices], axis=1).ravel()
-        mesh = pv.UnstructuredGrid(stream, np.full(len(simplices), kind, np.uint8), corners)
+        mesh = pv.UnstructuredGrid(stream, np.full(len(simplices), kind, np.uint8), self._nodes[used])
+        mesh.cell_data["cell of the simplex"] = owner
         for name, values in nodes.items():
             mesh.point_data[name] = values[used]
         with warnings.catch_warnings():
@@ -144,6 +157,7 @@ class CellSource(Source):
         valid = np.asarray(probed.point_data["vtkValidPointMask"]) == 1
         for name in nodes:
             found[name][asked[valid]] = np.asarray(probed.point_data[name], np.float64)[valid]
+        of_cell[asked[valid]] = np.asarray(probed.point_data["cell of the simplex"], np.int64)[valid]
         return np.setdiff1d(missing, asked[valid], assume_unique=True)
 
     @cached_property
@@ -151,13 +165,10 @@ class CellSource(Source):
         """Corners of the simplices: points of the mesh, centres of cells, middles of facets."""
         return np.concatenate([self.facets.points, self.points, self.facets.mean(self.facets.points)])
 
-    def _simplices(self, first: int, last: int) -> tuple[Ints, Ints]:
-        """Of some cells: the nodes in use, and each simplex by its place among these."""
+    def _simplices(self, begin: int, end: int) -> tuple[Ints, Ints, Ints]:
+        """Upon the facets from one to another: the nodes in use, each simplex by its place among these, and its cell."""
         facets, count = self.facets, len(self.facets.points)
-        begin, end = np.searchsorted(facets.cell, [first, last + 1])
-        facet, a, b = facets.fans()
-        inside = slice(facets.starts[begin], facets.starts[end])
-        facet, a, b = facet[inside], a[inside], b[inside]
+        facet, a, b = facets.fans(begin, end)
         apex = count + facets.cell[facet]
         middle = count + facets.cells + facet
         if facets.flat:  # a, the middle of the edge and the centre; each edge has both of its ends as a
@@ -165,7 +176,7 @@ class CellSource(Source):
         else:
             simplices = np.stack([apex, middle, a, b], axis=1)
         used, at = np.unique(simplices, return_inverse=True)
-        return used, at.reshape(simplices.shape)
+        return used, at.reshape(simplices.shape), facets.cell[facet]
 
     def _at_nodes(self, name: str) -> Floats:
         facets = self.facets
@@ -173,12 +184,12 @@ class CellSource(Source):
         if name in self.not_in_cells:
             points = self.at_points[name].reshape(len(facets.points), -1)
             middle = facets.mean(points)
-            cell, point = facets.incidence()
+            cell, point = facets.incidence
             count = np.bincount(cell, minlength=facets.cells)[:, None]
             inside = np.stack([np.bincount(cell, column, facets.cells) for column in points[point].T], axis=1) / count
         else:
             inside = self.arrays[name].reshape(facets.cells, -1)
-            cell, point = facets.incidence()
+            cell, point = facets.incidence
             slope = gradients(facets.points, self.points, cell, point, inside)
             points = continued(facets.points, self.points, cell, point, inside, slope)
             middle = self._at_middles(inside, slope)

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 from ..frame import Floats
 from .field import GasField
 
+AT_REST = 1e-6
+"""Share of the highest speed below which a point is at rest, as at walls, but for rounding."""
 Flags = NDArray[np.bool_]
 
 
@@ -38,7 +40,7 @@ class Divergence:
 
 def _inner(gas: GasField) -> Flags:
     """Points that neither are at rest, as walls and solids are, nor stand beside one that is."""
-    rest: Flags = gas.speed == 0
+    rest: Flags = gas.speed <= AT_REST * gas.speed.max()
     near = rest.copy()
     for k in range(3):
         for step in (1, -1):

@@ -76,16 +76,20 @@ class Facets:
         """Mean over the points of each facet, of values at points; shape (F, k)."""
         return _mean(self.facet, values[self.corners], len(self.cell))
 
+    @cached_property
     def incidence(self) -> tuple[Ints, Ints]:
         """Which cell has which point, each pair once."""
         pairs = np.unique(self.cell[self.facet] * np.int64(len(self.points)) + self.corners)
         return pairs // len(self.points), pairs % len(self.points)
 
-    def fans(self) -> tuple[Ints, Ints, Ints]:
-        """Each facet's sides: its number, and the points that a side joins."""
-        following = np.arange(1, len(self.corners) + 1)
-        following[self.starts[1:] - 1] = self.starts[:-1]
-        return self.facet, self.corners, self.corners[following]
+    def fans(self, begin: int = 0, end: int | None = None) -> tuple[Ints, Ints, Ints]:
+        """Sides of the facets from one to another (all): the facet of each, and the points that it joins."""
+        end = len(self.cell) if end is None else end
+        first, last = self.starts[begin], self.starts[end]
+        following = np.arange(first + 1, last + 1)
+        following[self.starts[begin + 1 : end + 1] - 1 - first] = self.starts[begin:end]
+        facet = np.repeat(np.arange(begin, end), self.sizes[begin:end])
+        return facet, self.corners[first:last], self.corners[following]
 
     def areas(self) -> tuple[Floats, Floats]:
         """Area vectors and centroids of faces, each of shape (F, 3), by their fans about the mean of their points.

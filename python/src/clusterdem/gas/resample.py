@@ -244,7 +244,7 @@ def resample(source: Source, making: Making) -> tuple[GasField, KeptFlux | None]
         return gas, None
 
     def velocity(finer: Axes) -> Floats:
-        found = _at_planes(between, placement, periods, finer, planes, names)
+        found = _at_planes(between, placement, periods, finer, planes, names, means=True)
         at_rest = {name: np.nan_to_num(values) for name, values in found.items()}
         return _field(source, recipe, placement, finer, at_rest, None)["velocity"]
 
@@ -272,10 +272,12 @@ def _at_planes(
     axes: Axes,
     planes: list[float],
     names: list[str],
+    means: bool = False,
 ) -> dict[str, Floats]:
-    """Samples at a grid, or the mean over planes of it."""
+    """Samples at a grid, or the mean over planes of it; or what has the flux of the source."""
     parts = [_points(axes, plane) for plane in planes] or [_points(axes)]
-    wholes = [source.sample(placement.back(_wrapped(p, periods, source, placement)), names) for p in parts]
+    ask = source.means if means else source.sample
+    wholes = [ask(placement.back(_wrapped(p, periods, source, placement)), names) for p in parts]
     return {name: _mean([whole[name] for whole in wholes]) for name in names}
 
 

@@ -88,6 +88,9 @@ class Completed(Source):
         self.inner.no_slip = self.no_slip
         return self._unfolded(self.inner.sample(self.fold(places), names), places)
 
+    def means(self, places: Floats, names: Iterable[str]) -> dict[str, Floats]:
+        return self._unfolded(self.inner.means(self.fold(places), names), places)
+
     def nearest(self, places: Floats, names: Iterable[str]) -> dict[str, Floats]:
         return self._unfolded(self.inner.nearest(self.fold(places), names), places)
 

@@ -10,8 +10,8 @@ import numpy as np
 from ..frame import Floats
 from .field import Axes, GasField
 
-REFINED = 8
-"""How many times finer a source is asked than the grid, to know its own flux."""
+REFINED = 32, 8
+"""How many times finer than the grid a source is asked for its own flux: along the one axis of a section, and two."""
 LEAST_FLUX = 1e-3
 """Share of the largest flux below which a section's is not corrected: it is a difference of larger ones."""
 
@@ -118,23 +118,24 @@ Velocity = Callable[[Axes], Floats]
 """A source's velocity (m/s) at all points of a grid, shape (nx, ny, nz, 3); at rest where it has none."""
 
 
-def _finer(axis: Floats) -> Floats:
+def _finer(axis: Floats, times: int) -> Floats:
     if axis.size < 2:
         return axis
-    parts = axis[:-1, None] + np.diff(axis)[:, None] * np.arange(REFINED) / REFINED
+    parts = axis[:-1, None] + np.diff(axis)[:, None] * np.arange(times) / times
     return np.append(parts.ravel(), axis[-1])
 
 
 def kept_flux(gas: GasField, velocity: Velocity, everywhere: bool = False) -> KeptFlux:
-    """Compare with the source on sections eight times as fine: the first and the last, or all."""
+    """Compare with the source on finer sections: the first and the last, or all."""
     means = [abs(float(np.mean(_across(gas["velocity"][..., k], gas.axes, k)))) for k in range(3)]
     sizes = [axis.size > 1 for axis in gas.axes]
     k = int(np.argmax([m if s else -1.0 for m, s in zip(means, sizes)]))
     which = np.arange(gas.axes[k].size) if everywhere else np.array([0, gas.axes[k].size - 1])
     grid = _across(gas["velocity"][..., k], gas.axes, k)[which]
+    times = REFINED[sum(sizes) > 2]
     source = []
     for at in gas.axes[k][which]:
-        x, y, z = (np.array([at]) if i == k else _finer(axis) for i, axis in enumerate(gas.axes))
+        x, y, z = (np.array([at]) if i == k else _finer(axis, times) for i, axis in enumerate(gas.axes))
         source.append(float(_across(velocity((x, y, z))[..., k], (x, y, z), k)[0]))
     return KeptFlux("xyz"[k], gas.axes[k][which], grid, np.array(source))
 

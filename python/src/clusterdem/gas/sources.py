@@ -83,6 +83,10 @@ class Source:
         """Values at places, shape (N, 3); NaN outside."""
         raise NotImplementedError
 
+    def means(self, places: Floats, names: Iterable[str]) -> dict[str, Floats]:
+        """Values whose integral over a section is the flux of the source: those of its cells, as they are, if it has such."""
+        return self.sample(places, names)
+
     def nearest(self, places: Floats, names: Iterable[str]) -> dict[str, Floats]:
         """Values of the nearest points that have finite ones."""
         names = list(names)
