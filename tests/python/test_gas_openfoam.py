@@ -131,7 +131,8 @@ def test_walls_have_the_value_of_the_file(tmp_path, command):
 
 def test_flux_of_the_cells(tmp_path, command):
     """5 m/s through 0.3 m in each section, which is what the solver conserves; between walls at rest, linear interpolation
-    has less."""
+    has less.
+    """
     (gas,), err = make(command, RECORDED / "chan_whole", tmp_path / "g.vtk", *UP, *FINE)
     assert "warning: flux through the ends of the grid" in err
     assert np.trapezoid(gas["velocity"][:, 0, 60, 2], gas.axes[0]) == pytest.approx(1.435, abs=0.015)

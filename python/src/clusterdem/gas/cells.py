@@ -22,7 +22,7 @@ from .reconstruct import continued, gradients
 from .sources import ROUNDING, Arrays, Source
 from .zones import outer_facets
 
-CELLS_AT_ONCE = 100_000
+CELLS_AT_ONCE = 25_000
 """How many cells are split at a time: 24 tetrahedra of each hexahedron take some 1 kB."""
 
 
@@ -121,9 +121,26 @@ class CellSource(Source):
         found = {name: np.full((len(places), *values.shape[1:]), np.nan) for name, values in nodes.items()}
         of_cell = np.full(len(places), -1)
         missing = np.arange(len(places))
-        for cells in np.array_split(np.arange(self.facets.cells), -(-self.facets.cells // CELLS_AT_ONCE)):
+        asked = self._near(places)
+        for cells in np.array_split(asked, -(-len(asked) // CELLS_AT_ONCE)) if len(asked) else ():
             missing = self._sample_cells(cells, places, missing, nodes, found, of_cell)
         return found, of_cell
+
+    @property
+    def _margin(self) -> float:
+        """By how much a point may lie outside of a cell (in the file's own unit)."""
+        low, high = self.bounds
+        return ROUNDING * float(np.max(high - low))
+
+    def _near(self, places: Floats) -> Ints:
+        """Cells in whose boxes places may lie, by each coordinate alone: all that are needed, of a grid no others."""
+        near = np.ones(self.facets.cells, bool)
+        low, high = self.facets.boxes
+        for k in range(3):
+            have = np.unique(places[:, k])
+            first = np.searchsorted(have, low[:, k] - self._margin)
+            near &= first < np.searchsorted(have, high[:, k] + self._margin, "right")
+        return np.flatnonzero(near)
 
     def _sample_cells(
         self, cells: Ints, places: Floats, missing: Ints, nodes: Arrays, found: dict[str, Floats], of_cell: Ints
@@ -132,18 +149,15 @@ class CellSource(Source):
         from .meshes import pyvista
 
         pv = pyvista()
-        low, high = self.bounds
-        margin = ROUNDING * float(np.max(high - low))
-        begin, end = np.searchsorted(self.facets.cell, [cells[0], cells[-1] + 1])
-        corners = self.facets.points[self.facets.corners[self.facets.starts[begin] : self.facets.starts[end]]]
+        low, high = (end[cells] for end in self.facets.boxes)
+        margin = self._margin
         near = np.all(
-            (places[missing] >= corners.min(axis=0) - margin) & (places[missing] <= corners.max(axis=0) + margin),
-            axis=1,
+            (places[missing] >= low.min(axis=0) - margin) & (places[missing] <= high.max(axis=0) + margin), axis=1
         )
         asked = missing[near]
         if not asked.size:
             return missing
-        used, simplices, owner = self._simplices(int(begin), int(end))
+        used, simplices, owner = self._simplices(cells)
         kind = 5 if self.facets.flat else 10
         wide = simplices.shape[1]
         stream = np.concatenate([np.full((len(simplices), 1), wide), simplices], axis=1).ravel()
@@ -165,10 +179,12 @@ class CellSource(Source):
         """Corners of the simplices: points of the mesh, centres of cells, middles of facets."""
         return np.concatenate([self.facets.points, self.points, self.facets.mean(self.facets.points)])
 
-    def _simplices(self, begin: int, end: int) -> tuple[Ints, Ints, Ints]:
-        """Upon the facets from one to another: the nodes in use, each simplex by its place among these, and its cell."""
+    def _simplices(self, cells: Ints) -> tuple[Ints, Ints, Ints]:
+        """Of some cells: the nodes in use, each simplex by its place among these, and its cell."""
         facets, count = self.facets, len(self.facets.points)
-        facet, a, b = facets.fans(begin, end)
+        chosen = np.zeros(facets.cells, bool)
+        chosen[cells] = True
+        facet, a, b = facets.fans(facets.of_cells(chosen))
         apex = count + facets.cell[facet]
         middle = count + facets.cells + facet
         if facets.flat:  # a, the middle of the edge and the centre; each edge has both of its ends as a

@@ -25,6 +25,8 @@ FACES: dict[int, tuple[tuple[int, ...], ...]] = {
 EDGES: dict[int, tuple[tuple[int, int], ...]] = {8: ((0, 1), (1, 3), (3, 2), (2, 0))}
 """Of VTK's pixel, whose points do not go round."""
 POLYHEDRON = 42
+FACETS_AT_ONCE = 200_000
+"""How many facets are looked at at a time, so that little is in memory."""
 
 
 @dataclass(frozen=True)
@@ -77,34 +79,50 @@ class Facets:
         return _mean(self.facet, values[self.corners], len(self.cell))
 
     @cached_property
+    def boxes(self) -> tuple[Floats, Floats]:
+        """Lowest and highest coordinates of each cell, each of shape (C, 3)."""
+        at = self.points[self.corners]
+        first = self.starts[np.searchsorted(self.cell, np.arange(self.cells))]
+        return np.minimum.reduceat(at, first, axis=0), np.maximum.reduceat(at, first, axis=0)
+
+    def of_cells(self, chosen: NDArray[np.bool_]) -> Ints:
+        """The facets of some cells."""
+        return np.flatnonzero(chosen[self.cell])
+
+    @cached_property
     def incidence(self) -> tuple[Ints, Ints]:
         """Which cell has which point, each pair once."""
         pairs = np.unique(self.cell[self.facet] * np.int64(len(self.points)) + self.corners)
         return pairs // len(self.points), pairs % len(self.points)
 
-    def fans(self, begin: int = 0, end: int | None = None) -> tuple[Ints, Ints, Ints]:
-        """Sides of the facets from one to another (all): the facet of each, and the points that it joins."""
-        end = len(self.cell) if end is None else end
-        first, last = self.starts[begin], self.starts[end]
-        following = np.arange(first + 1, last + 1)
-        following[self.starts[begin + 1 : end + 1] - 1 - first] = self.starts[begin:end]
-        facet = np.repeat(np.arange(begin, end), self.sizes[begin:end])
-        return facet, self.corners[first:last], self.corners[following]
+    def fans(self, facets: Ints | None = None) -> tuple[Ints, Ints, Ints]:
+        """Sides of some facets (all): the facet of each, and the points that it joins."""
+        facets = np.arange(len(self.cell)) if facets is None else facets
+        sizes = self.sizes[facets]
+        ends = np.cumsum(sizes)
+        place = np.arange(sizes.sum()) - np.repeat(ends - sizes, sizes)  # within the facet
+        facet = np.repeat(facets, sizes)
+        begin = self.starts[facet]
+        return facet, self.corners[begin + place], self.corners[begin + (place + 1) % np.repeat(sizes, sizes)]
 
     def areas(self) -> tuple[Floats, Floats]:
         """Area vectors and centroids of faces, each of shape (F, 3), by their fans about the mean of their points.
 
         As OpenFOAM's ``primitiveMesh::makeFaceCentresAndAreas`` has them, whose cells' centres values belong to.
         """
-        facet, a, b = self.fans()
         count = len(self.cell)
-        middle = self.mean(self.points)
-        p, q, m = self.points[a], self.points[b], middle[facet]
-        parts = 0.5 * np.cross(p - m, q - m)
-        sizes = np.linalg.norm(parts, axis=1)
-        whole = np.bincount(facet, sizes, count)[:, None]
-        moment = _sum(facet, sizes[:, None] * (p + q + m) / 3, count)
-        return _sum(facet, parts, count), np.divide(moment, whole, out=middle, where=whole > 0)
+        area, middle = np.empty((count, 3)), self.mean(self.points)
+        for block in np.array_split(np.arange(count), -(-count // FACETS_AT_ONCE)):
+            facet, a, b = self.fans(block)
+            p, q, m = self.points[a], self.points[b], middle[facet]
+            parts = 0.5 * np.cross(p - m, q - m)
+            sizes = np.linalg.norm(parts, axis=1)
+            row, rows = facet - block[0], len(block)
+            whole = np.bincount(row, sizes, rows)[:, None]
+            moment = _sum(row, sizes[:, None] * (p + q + m) / 3, rows)
+            area[block] = _sum(row, parts, rows)
+            middle[block] = np.divide(moment, whole, out=middle[block], where=whole > 0)
+        return area, middle
 
     def centres(self) -> Floats:
         """Centres of the cells, shape (C, 3): of the pyramids upon their faces (triangles upon their edges).

@@ -22,6 +22,8 @@ from .sources import ROUNDING, GridSource, Source
 Flags = NDArray[np.bool_]
 
 MOST_POINTS = 200_000_000
+SINGLE = 1e-7
+"""Rounding of float32, in which meshes are often held, relative."""
 NEAR_SIDE = 1e-9
 """Share of a length below which two numbers are one."""
 
@@ -242,6 +244,8 @@ def resample(source: Source, making: Making) -> tuple[GasField, KeptFlux | None]
     gas = _field(source, recipe, placement, axes, samples, None if making.fill == "nearest" else solid)
     if own and isinstance(source, GridSource):
         return gas, None
+    still = np.abs(gas["velocity"]) < SINGLE * np.max(np.abs(gas["velocity"]))
+    gas["velocity"][still] = 0.0  # at walls, but for rounding
 
     def velocity(finer: Axes) -> Floats:
         found = _at_planes(between, placement, periods, finer, planes, names, means=True)

@@ -73,11 +73,12 @@ class Source:
         return self.points.min(axis=0), self.points.max(axis=0)
 
     def snapped(self, places: Floats) -> Floats:
-        """Places outside the bounds by no more than rounding put onto them."""
+        """Places off the bounds by no more than rounding, to either side, put onto them."""
         low, high = self.bounds
         margin = ROUNDING * float(np.max(high - low))
-        inside = np.clip(places, low, high)
-        return np.where(np.abs(inside - places) <= margin, inside, places)
+        for end in (low, high):
+            places = np.where(np.abs(places - end) <= margin, end, places)
+        return places
 
     def sample(self, places: Floats, names: Iterable[str]) -> dict[str, Floats]:
         """Values at places, shape (N, 3); NaN outside."""
