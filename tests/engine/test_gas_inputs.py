@@ -42,7 +42,7 @@ def test_gusts_with_a_field(tmp_path, amplitude, words, wanted):
     assert np.abs(gusts).max() <= wanted + 1e-12
     # uniform in ± the amplitude, in 60 cells and more
     assert np.abs(gusts).max() >= 0.9 * wanted
-    assert not list(tmp_path.glob("*.amplitude.in"))
+    assert not list(tmp_path.glob("*.amplitude"))
 
 
 @pytest.mark.parametrize("name", ["riser", "feed", "box3d", "two_densities", "jet"])
