@@ -260,14 +260,24 @@ def test_one_cell_thick(tmp_path, command):
     assert "lies in a plane of constant z; if its y is upward, turn it: --axes x,-z,y" in err
 
 
-def test_wedge(tmp_path, command):
-    """A body of revolution whose flow is linear in radius and height, with swirl: (0.3 r, 2 − 4 s, 5 r) is met all round."""
+@pytest.mark.parametrize("degrees", [0, 2.5, 40])
+def test_wedge(tmp_path, command, degrees):
+    """A body of revolution whose flow is linear in radius and height, with swirl: (0.3 r, 2 − 4 s, 5 r) is met all round.
+
+    Also by a wedge that lies elsewhere round its axis.
+    """
     case = copy(tmp_path, "wedge")
     centres = centres_of(case)
+    c, d = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    turn = np.array([[c, 0, d], [0, 1, 0], [-d, 0, c]])
+    mesh = case / "constant" / "polyMesh" / "points"
+    head, _, body = mesh.read_text().partition("\n(\n")
+    points = np.array(re.findall(r"\((\S+) (\S+) (\S+)\)", body), float) @ turn.T
+    mesh.write_text(head + "\n(\n" + "\n".join("({:.15g} {:.15g} {:.15g})".format(*p) for p in points) + "\n)\n")
     r, s = centres[:, 0], centres[:, 1]
     (case / "1").mkdir()
     # the swirl turns from x to z's negative: y is the axis
-    (case / "1" / "U").write_text(field_of(np.stack([0.3 * r, 2 - 4 * s, -5 * r], axis=1)))
+    (case / "1" / "U").write_text(field_of(np.stack([0.3 * r, 2 - 4 * s, -5 * r], axis=1) @ turn.T))
     words = (*UP, "--grid", 9, 9, 7, "--time", "latest")
     (gas,), err = make(command, case, tmp_path / "g.vtk", *words)
     x, y, z = np.meshgrid(*gas.axes, indexing="ij")

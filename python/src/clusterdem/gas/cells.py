@@ -113,11 +113,7 @@ class CellSource(Source):
 
     def _found(self, places: Floats, nodes: Arrays) -> tuple[dict[str, Floats], Ints]:
         """Values at places from those at the nodes, and the cell of each; NaN and −1 outside."""
-        places = self.snapped(places)
-        if self.facets.flat:  # the plane's own coordinate, whatever the rounding
-            low, high = self.bounds
-            thin = high - low <= ROUNDING * np.max(high - low)
-            places = np.where(thin, low, places)
+        places = self._plane(self.snapped(places))
         found = {name: np.full((len(places), *values.shape[1:]), np.nan) for name, values in nodes.items()}
         of_cell = np.full(len(places), -1)
         missing = np.arange(len(places))
@@ -125,6 +121,10 @@ class CellSource(Source):
         for cells in np.array_split(asked, -(-len(asked) // CELLS_AT_ONCE)) if len(asked) else ():
             missing = self._sample_cells(cells, places, missing, nodes, found, of_cell)
         return found, of_cell
+
+    @cached_property
+    def _boxes(self) -> tuple[Floats, Floats]:
+        return self.facets.boxes(self._plane(self.facets.points))
 
     @property
     def _margin(self) -> float:
@@ -135,7 +135,7 @@ class CellSource(Source):
     def _near(self, places: Floats) -> Ints:
         """Cells in whose boxes places may lie, by each coordinate alone: all that are needed, of a grid no others."""
         near = np.ones(self.facets.cells, bool)
-        low, high = self.facets.boxes
+        low, high = self._boxes
         for k in range(3):
             have = np.unique(places[:, k])
             first = np.searchsorted(have, low[:, k] - self._margin)
@@ -149,7 +149,7 @@ class CellSource(Source):
         from .meshes import pyvista
 
         pv = pyvista()
-        low, high = (end[cells] for end in self.facets.boxes)
+        low, high = (end[cells] for end in self._boxes)
         margin = self._margin
         near = np.all(
             (places[missing] >= low.min(axis=0) - margin) & (places[missing] <= high.max(axis=0) + margin), axis=1
@@ -175,9 +175,31 @@ class CellSource(Source):
         return np.setdiff1d(missing, asked[valid], assume_unique=True)
 
     @cached_property
+    def _basis(self) -> tuple[Floats, Floats] | None:
+        """A point of the plane that the mesh lies in and two directions in it, as columns; None of other meshes."""
+        facets = self.facets
+        if not facets.flat:
+            return None
+        ends = facets.points[facets.corners.reshape(-1, 2)] - self.points[facets.cell][:, None]
+        normal = np.cross(ends[:, 0], ends[:, 1]).sum(axis=0)
+        normal /= np.linalg.norm(normal)
+        across = int(np.argmax(np.abs(normal)))
+        first = np.eye(3)[(across + 1) % 3]
+        first -= (first @ normal) * normal
+        first /= np.linalg.norm(first)
+        return facets.points[0], np.stack([first, np.cross(normal, first)], axis=1)
+
+    def _plane(self, points: Floats) -> Floats:
+        """Of points their coordinates in that plane, the third 0, wherever they lie across; of other meshes as they are."""
+        if self._basis is None:
+            return points
+        origin, directions = self._basis
+        return np.concatenate([(points - origin) @ directions, np.zeros((len(points), 1))], axis=1)
+
+    @cached_property
     def _nodes(self) -> Floats:
         """Corners of the simplices: points of the mesh, centres of cells, middles of facets."""
-        return np.concatenate([self.facets.points, self.points, self.facets.mean(self.facets.points)])
+        return self._plane(np.concatenate([self.facets.points, self.points, self.facets.mean(self.facets.points)]))
 
     def _simplices(self, cells: Ints) -> tuple[Ints, Ints, Ints]:
         """Of some cells: the nodes in use, each simplex by its place among these, and its cell."""

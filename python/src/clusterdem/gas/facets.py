@@ -78,10 +78,9 @@ class Facets:
         """Mean over the points of each facet, of values at points; shape (F, k)."""
         return _mean(self.facet, values[self.corners], len(self.cell))
 
-    @cached_property
-    def boxes(self) -> tuple[Floats, Floats]:
-        """Lowest and highest coordinates of each cell, each of shape (C, 3)."""
-        at = self.points[self.corners]
+    def boxes(self, points: Floats) -> tuple[Floats, Floats]:
+        """Lowest and highest coordinates of each cell, each of shape (C, 3), the points being where they are given."""
+        at = points[self.corners]
         first = self.starts[np.searchsorted(self.cell, np.arange(self.cells))]
         return np.minimum.reduceat(at, first, axis=0), np.maximum.reduceat(at, first, axis=0)
 
