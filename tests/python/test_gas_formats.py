@@ -111,6 +111,23 @@ def test_velocity_without_dimensions(tmp_path, command):
     np.testing.assert_allclose(gas["fluctuation"], 7.5 * 0.2, rtol=1e-12)
 
 
+@pytest.mark.parametrize("rate", ["--dissipation", "--omega"])
+def test_eddies(tmp_path, command, rate):
+    """K = 1.5 m²/s², ε = 30 m²/s³ (ω = ε/(0.09 k)): a lifetime of 0.3 k/ε = 15 ms, a size of 0.09^¾ k^1.5/ε = 10.06 mm."""
+    grid = image(Block())
+    grid.point_data["k"] = np.full(grid.n_points, 1.5)
+    grid.point_data["rate"] = np.full(grid.n_points, 30.0 if rate == "--dissipation" else 30.0 / (0.09 * 1.5))
+    grid.save(tmp_path / "a.vti")
+    (gas,), _ = made(command, tmp_path / "g.vtk", tmp_path / "a.vti", "--energy", "k", rate, "rate")
+    np.testing.assert_allclose(gas["period"], 0.015, rtol=1e-12)
+    np.testing.assert_allclose(gas["eddy_size"], 0.164317 * 1.5**1.5 / 30, rtol=1e-5)
+    (gas,), _ = made(command, tmp_path / "g.vtk", tmp_path / "a.vti", "--energy", "k", rate, "rate", "--lifetime", 1)
+    np.testing.assert_allclose(gas["period"], 0.05, rtol=1e-12)
+    make = ("gas", "make", tmp_path / "a.vti", "-o", tmp_path / "h.vtk", rate, "rate")
+    assert f"{rate}: needs --energy" in command(*make)[2]
+    assert f"{rate}: must have its unit" in command(*make, "--energy", "k", "--velocity-scale", 2)[2]
+
+
 def test_list_of_files(tmp_path, command):
     """ParaView's list gives the times, whatever the names and their order."""
     names = {0.5: "b.vti", 2.0: "a.vti"}

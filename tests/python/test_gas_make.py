@@ -61,6 +61,13 @@ def polyhedra(block):
     return poly
 
 
+def with_points(mesh):
+    """Values at the points instead of in the cells."""
+    mesh.clear_data()
+    mesh.point_data["U"] = linear(mesh.points)
+    return mesh
+
+
 def tetrahedra(block, cells=False):
     mesh = hexahedra(block).triangulate()
     if cells:
@@ -152,6 +159,7 @@ SOURCES = {
         1e-8,
     ),  # VTK finds the place in each by Newton's method
     "polyhedra, cells": (saved("a.vtu", lambda: polyhedra(Block())), EXACT),
+    "polyhedra, points": (saved("a.vtu", lambda: with_points(polyhedra(Block()))), EXACT),
     "hexahedra, cells": (
         saved("a.vtk", lambda: hexahedra(Block(), cells=True)),
         EXACT,

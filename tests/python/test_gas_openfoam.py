@@ -82,6 +82,34 @@ def test_collated_folders(tmp_path, command, name, ranks):
     assert gas.speed[6, 0, 10] == pytest.approx(5.0, abs=0.15)
 
 
+def test_a_time_that_some_ranks_lack(tmp_path, command):
+    """A run that was ended while it wrote: the latest time that all have."""
+    case = copy(tmp_path, "chan_processors")
+    shutil.rmtree(case / "processor1" / "158")
+    (gas,), _ = make(command, case, tmp_path / "g.vtk", *UP, "--grid", 13, 21)
+    assert ", time 100" in gas.provenance and gas.solid is None
+    assert "has no time 158; it has 0, 100" in refused(command, case, *UP, "--grid", 3, 3, "--time", 158)
+
+
+def test_regions(tmp_path, command):
+    case = copy(tmp_path, "chan_whole")
+    (case / "constant" / "air").mkdir()
+    (case / "constant" / "polyMesh").rename(case / "constant" / "air" / "polyMesh")
+    assert "has meshes of regions (air), which are not read: foamToVTK" in refused(command, case)
+
+
+@pytest.mark.parametrize("kind", ["symmetryPlane", "cyclic", "patch"])
+def test_one_cell_thick_between_other_patches(tmp_path, command, kind):
+    """Nothing is known at the front and the back but that the gas does not pass: a plane all the same."""
+    case = copy(tmp_path, "chan_whole")
+    path = case / "constant" / "polyMesh" / "boundary"
+    path.write_text(re.sub(r"type(\s+)empty;", rf"type\1{kind};", path.read_text()))
+    (case / "159" / "U").write_text((case / "159" / "U").read_text().replace("type            empty;", f"type {kind};"))
+    (gas,), _ = make(command, case, tmp_path / "g.vtk", *UP, "--box", 0, 0.3, -1, 1, 0, 0.6, "--grid", 13, 4, 21)
+    (whole,), _ = make(command, RECORDED / "chan_whole", tmp_path / "w.vtk", *UP, "--grid", 13, 21)
+    np.testing.assert_allclose(gas["velocity"], whole["velocity"], atol=1e-6)
+
+
 def test_collated_file_cut_short(tmp_path, command):
     case = copy(tmp_path, "chan_collated")
     path = case / "processors2" / "158" / "U"
@@ -127,6 +155,19 @@ def test_walls_have_the_value_of_the_file(tmp_path, command):
     np.testing.assert_allclose(gas["velocity"][[0, -1]], 0, atol=1e-6)
     np.testing.assert_allclose(gas["velocity"][7:-7, 0, 0], np.broadcast_to([0, 0, 5], (47, 3)), atol=1e-6)
     assert gas["fluctuation"].min() > 0.3  # √(2k), k 0.0625 and more
+
+
+def test_eddies_beside_solids(tmp_path, command):
+    """Where nothing moves the lifetime of eddies is still above zero, as the engine asks: in solids, and where k is 0."""
+    block = Block((6, 2, 6))
+    k = np.where(block.centres[:, 0] < 0.1, 0.0, 1.5)
+    fields = {"U": linear(block.centres), "k": k, "epsilon": np.full(len(k), 30.0)}
+    case = write_openfoam(tmp_path / "case", block, {1.0: fields})
+    words = ("--grid", 7, 7, "--energy", "k", "--dissipation", "epsilon", "--box", -0.1, 0.3, 0, 0.6, "--fill", "rest")
+    (gas,), _ = make(command, case, tmp_path / "g.vtk", *words)
+    assert gas["period"].min() > 0 and gas["eddy_size"].min() > 0
+    np.testing.assert_allclose(gas["period"][-1], 0.015, rtol=1e-6)
+    assert np.all(gas["fluctuation"][0] == 0)
 
 
 def test_flux_of_the_cells(tmp_path, command):

@@ -19,7 +19,8 @@ from .field import GasField
 STREAM_POINTS = 200
 """Points along the longer side of the even grid that streamlines are drawn on."""
 
-SCALAR_PANELS = (("density", "density (kg/m³)", 1.0), ("viscosity", "kinematic viscosity (mm²/s)", 1e6))
+SCALAR_PANELS = (("density", "density (kg/m³)", 1.0), ("viscosity", "kinematic viscosity (mm²/s)", 1e6),
+    ("period", "lifetime of eddies (ms)", 1e3), ("eddy_size", "size of eddies (mm)", 1e3))  # fmt: skip
 
 
 def draw_gas(gas: GasField, y: float | None = None) -> Figure:

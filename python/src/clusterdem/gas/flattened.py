@@ -41,10 +41,10 @@ def one_layer(source: CellSource) -> Source:
 
 
 def _known_at(source: CellSource, *planes: NDArray[np.bool_]) -> bool:
-    """Whether a patch that lies in one of the planes has values."""
+    """Whether a patch that lies in one of the planes has values; symmetry has none of its own."""
     for patch in source.patches:
         inside = any(plane[face].all() for plane in planes for face in patch.faces)
-        if inside and any(patch.how(name) != "open" for name in patch.values):
+        if inside and any(patch.how(name) == "value" for name in patch.values):
             return True
     return False
 

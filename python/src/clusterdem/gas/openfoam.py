@@ -59,6 +59,12 @@ def _times(folder: Path) -> dict[float, str]:
     return found
 
 
+def _common(folders: Sequence[Path]) -> dict[float, str]:
+    """Times that all ranks have written: a run that was ended while it wrote has a last one that some lack."""
+    times = [_times(folder) for folder in folders]
+    return {time: name for time, name in times[0].items() if all(time in other for other in times[1:])}
+
+
 @dataclass(frozen=True)
 class FoamCase:
     """A case's folder.
@@ -84,15 +90,18 @@ class FoamCase:
         single = sorted(self.path.glob("processor[0-9]*"), key=lambda p: int(re.sub(r"\D", "", p.name) or 0))
         single = [folder for folder in single if re.fullmatch(r"processor\d+", folder.name)]
         if single:
-            found.append(Layout("processors", single, _times(single[0])))
+            found.append(Layout("processors", single, _common(single)))
         groups: dict[str, list[Path]] = {}
         for folder in sorted(self.path.glob("processors*")):
             if match := COLLATED.fullmatch(folder.name):
                 groups.setdefault(match.group(1), []).append(folder)
         for folders in groups.values():
-            found.append(Layout("collated", folders, _times(folders[0])))
+            found.append(Layout("collated", folders, _common(folders)))
         found = [layout for layout in found if layout.times]
         if not found:
+            if regions := [path.parent.name for path in sorted(self.path.glob("constant/*/polyMesh"))]:
+                rule = f"has meshes of regions ({', '.join(regions)}), which are not read: foamToVTK -case {self.path} -latestTime"
+                raise InputError(self.path, f"{rule} -region {regions[0]}, then its .vtm.series")
             raise InputError(self.path, f"has no mesh or no time in it: blockMesh -case {self.path}, then its solver")
         return found
 

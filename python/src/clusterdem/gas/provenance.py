@@ -6,9 +6,17 @@ import math
 
 from .. import __version__
 from .field import GasField
+from .quantities import C_MU, Recipe
 from .resample import Making
 from .sections import KeptFlux
 from .sources import Source
+
+
+def _lifetime(recipe: Recipe) -> str:
+    if recipe.dissipation:
+        return f"{recipe.lifetime:g} k / {recipe.dissipation}"
+    return f"{recipe.lifetime / C_MU:.4g} / {recipe.frequency}" if recipe.frequency else ""
+
 
 UNITS = "m, s, m/s, kg/m^3, m^2/s"
 
@@ -31,6 +39,7 @@ def provenance(source: Source, making: Making, gas: GasField, kept: KeptFlux | N
     }
     for name, value in (
         ("fluctuation", f"sqrt(2 k), k = {recipe.energy}" if recipe.energy else ",".join(recipe.fluctuation)),
+        ("lifetime of eddies", _lifetime(recipe)),
         ("density", recipe.density),
         ("viscosity", recipe.viscosity or (recipe.dynamic_viscosity and f"{recipe.dynamic_viscosity} / density")),
         ("mirrored at", " ".join(making.mirror)),

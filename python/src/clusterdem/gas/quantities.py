@@ -12,6 +12,8 @@ from ..errors import InputError
 from ..frame import Floats
 from .axes import Placement
 
+C_MU = 0.09
+"""Of the k-ε model."""
 VECTOR_NAMES = (
     "velocity", "u", "gasvelocity", "velocitygas", "ugas", "uair", "ug", "uf", "fluidvelocity", "velocityvector",
     "velocityfield", "vel", "umean", "meanvelocity", "velocitymean", "vg", "v",
@@ -45,6 +47,10 @@ class Recipe:
         Amplitudes: one vector, one scalar for all components, or three.
     energy : str
         Turbulent kinetic energy k (m²/s²) instead.
+    dissipation, frequency : str
+        Dissipation rate ε of k (m²/s³), or its specific one ω (1/s), for lifetime and size of eddies.
+    lifetime : float
+        c of the lifetime c k/ε.
     density, viscosity, dynamic_viscosity : str
         kg/m³, m²/s, Pa·s.
     speed : float
@@ -54,6 +60,9 @@ class Recipe:
     velocity: Sequence[str] = ()
     fluctuation: Sequence[str] = ()
     energy: str = ""
+    dissipation: str = ""
+    frequency: str = ""
+    lifetime: float = 0.3
     density: str = ""
     viscosity: str = ""
     dynamic_viscosity: str = ""
@@ -73,7 +82,7 @@ class Recipe:
         return {name for name in names if name in arrays}
 
     def _others(self) -> list[str]:
-        scalars = (self.energy, self.density, self.viscosity, self.dynamic_viscosity)
+        scalars = (self.energy, self.dissipation, self.frequency, self.density, self.viscosity, self.dynamic_viscosity)
         return [name for name in (*self.fluctuation, *scalars) if name]
 
     def velocity_names(self, path: str, arrays: Mapping[str, Floats]) -> tuple[str, ...]:
@@ -95,6 +104,18 @@ class Recipe:
         listed = ", ".join(sorted(arrays)) or "none"
         raise InputError(path, f"no array has a usual name of a velocity: give --velocity NAME or U,V,W of: {listed}")
 
+    def _eddies(self, path: str, k: Floats, samples: Mapping[str, Floats]) -> dict[str, Floats]:
+        """Lifetime c k/ε and size C_mu^(3/4) k^(3/2)/ε of eddies, as the engine's page of fix drag/cluster has them."""
+        if self.dissipation:
+            rate = _scalar(path, self.dissipation, samples)
+        elif self.frequency:
+            rate = C_MU * k * _scalar(path, self.frequency, samples)  # Wilcox's definition of ω
+        else:
+            return {}
+        with np.errstate(divide="ignore", invalid="ignore"):
+            period, size = self.lifetime * k / rate, C_MU**0.75 * np.maximum(k, 0.0) ** 1.5 / rate
+        return {"period": _above_zero(period), "eddy_size": _above_zero(size)}
+
     def gas(self, path: str, samples: Mapping[str, Floats], placement: Placement) -> dict[str, Floats]:
         """The gas's arrays at N points, from the samples there.
 
@@ -108,6 +129,7 @@ class Recipe:
             k = _scalar(path, self.energy, samples)
             # continued linearly to a wall, where it vanishes, k may come out below zero
             arrays["fluctuation"] = self.speed * np.repeat(np.sqrt(2 * np.maximum(k, 0.0))[:, None], 3, axis=1)
+            arrays |= self._eddies(path, self.speed**2 * k, samples)
         elif self.fluctuation:
             amplitude = self.speed * _vector(path, self.fluctuation, samples, "fluctuation")
             arrays["fluctuation"] = np.abs(placement.turned(amplitude))
@@ -119,6 +141,12 @@ class Recipe:
             with np.errstate(divide="ignore", invalid="ignore"):  # a density of zero is found by the checks
                 arrays["viscosity"] = _scalar(path, self.dynamic_viscosity, samples) / arrays["density"]
         return arrays
+
+
+def _above_zero(values: Floats) -> Floats:
+    """Where there is no turbulence, at walls and in solids, the least of the others: it cannot be 0 there."""
+    sound = np.isfinite(values) & (values > 0)
+    return np.where(sound, values, values[sound].min() if sound.any() else np.nan)
 
 
 def _number(text: str) -> float | None:

@@ -66,6 +66,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--fluctuation", metavar="NAME", help="amplitude: a vector, a scalar for all components, or A,B,C"
     )
     kind.add_argument("--energy", metavar="NAME", help="turbulent kinetic energy k instead: amplitude sqrt(2k)")
+    kind = arrays.add_mutually_exclusive_group()
+    kind.add_argument(
+        "--dissipation",
+        metavar="NAME",
+        help="with --energy: its dissipation rate epsilon (m^2/s^3), for the lifetime of eddies",
+    )
+    kind.add_argument("--omega", metavar="NAME", help="or its specific dissipation rate omega (1/s)")
+    arrays.add_argument(
+        "--lifetime", type=positive, default=0.3, metavar="C", help="of an eddy: C k/epsilon (default 0.3)"
+    )
     arrays.add_argument("--density", metavar="NAME", help="kg/m^3")
     kind = arrays.add_mutually_exclusive_group()
     kind.add_argument("--viscosity", metavar="NAME", help="kinematic, m^2/s")
@@ -279,6 +289,11 @@ def _recipe(options: argparse.Namespace, source: Source) -> Recipe:
             raise InputError(option, f"must be one name, or three with commas, not {text}")
         return words
 
+    rate = "--dissipation" if options.dissipation else "--omega" if options.omega else ""
+    if rate and not options.energy:
+        raise InputError(rate, "needs --energy, whose dissipation it is")
+    if rate and options.velocity_scale != 1:
+        raise InputError(rate, "must have its unit, but --velocity-scale says that INPUT has no dimensions")
     if options.dynamic_viscosity and not options.density:
         raise InputError("--dynamic-viscosity", "needs --density, to divide by")
     velocity = names(options.velocity, "--velocity")
@@ -289,6 +304,9 @@ def _recipe(options: argparse.Namespace, source: Source) -> Recipe:
         velocity,
         names(options.fluctuation, "--fluctuation"),
         options.energy or "",
+        options.dissipation or "",
+        options.omega or "",
+        options.lifetime,
         options.density or "",
         options.viscosity or "",
         options.dynamic_viscosity or "",
