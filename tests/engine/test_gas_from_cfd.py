@@ -56,6 +56,20 @@ def test_openfoam_series(tmp_path):
         np.testing.assert_allclose(gas, (1 + 0.01 * steps) * linear(places), atol=2e-5)
 
 
+@pytest.mark.parametrize("steps, share", [(10, 0.25), (35, 0.25 + 0.3 * 0.75), (60, 1.0)])
+def test_between_frames(tmp_path, steps, share):
+    """A quarter of a velocity at the first frame and all of it 0.3 s later: linear in between, and these two hold before and
+    after. The series begins at 12.2 s, and at 0.26 s in the run."""
+    block = Block()
+    u = linear(block.centres)
+    values = {12.2: 0.25, 12.5: 1.0}
+    case = write_openfoam(tmp_path / "case", block, {t: {"U": share * u} for t, share in values.items()})
+    words = ["--grid", "5", "4", "6", "--start", "0.26"]
+    assert main(["gas", "make", str(case), "-o", str(tmp_path / "gas.vtk"), *words]) == 0
+    places, gas = seen(tmp_path / "run", "../gas.*.vtk", steps)
+    np.testing.assert_allclose(gas, share * linear(places), atol=2e-5)
+
+
 def test_all_arrays(tmp_path):
     """Fluctuation from k: r.m.s. √(2k/3) in each component over the clusters."""
     block = Block()
