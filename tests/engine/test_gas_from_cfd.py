@@ -59,7 +59,8 @@ def test_openfoam_series(tmp_path):
 @pytest.mark.parametrize("steps, share", [(10, 0.25), (35, 0.25 + 0.3 * 0.75), (60, 1.0)])
 def test_between_frames(tmp_path, steps, share):
     """A quarter of a velocity at the first frame and all of it 0.3 s later: linear in between, and these two hold before and
-    after. The series begins at 12.2 s, and at 0.26 s in the run."""
+    after. The series begins at 12.2 s, and at 0.26 s in the run.
+    """
     block = Block()
     u = linear(block.centres)
     values = {12.2: 0.25, 12.5: 1.0}

@@ -8,7 +8,7 @@ import sys
 
 import numpy as np
 import pytest
-from cfd_files import LENGTHS, Block, linear, write_fluent, write_openfoam
+from cfd_files import LENGTHS, Block, linear, write_fluent, write_fluent_channel, write_openfoam
 from clusterdem.gas.legacy import read_field, write_field
 from clusterdem.gas.quantities import plain
 from test_gas_make import hexahedra, image, points_of, tetrahedra
@@ -286,6 +286,15 @@ def test_walls_of_fluent(tmp_path, command):
     assert "slips" not in err
     for k in range(3):
         np.testing.assert_allclose(np.take(gas["velocity"], [0, -1], k), 0, atol=1e-6)
+
+
+def test_walls_of_a_plane_fluent_case(tmp_path, command):
+    """Walls at both sides, in the corner cells too, and none at inlet and outlet; 5 m/s in between."""
+    case = write_fluent_channel(tmp_path / "channel.cas")
+    words = ("--axes", "x,-z,y", "--grid", 13, 17, "--wall", "noslip")
+    (gas,), _ = made(command, tmp_path / "g.vtk", case, *words)
+    np.testing.assert_allclose(gas["velocity"][[0, -1]], 0, atol=1e-5)
+    np.testing.assert_allclose(gas["velocity"][1:-1, 0, [0, 8, 16], 2], 5, atol=1e-5)
 
 
 def test_no_slip_needs_walls(tmp_path, command):

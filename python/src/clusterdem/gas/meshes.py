@@ -43,9 +43,9 @@ class Block:
     Parameters
     ----------
     name, kind : str
-        Its name, and "wall", "wedge", "empty" and so on.
+        Its name, and "wall", "wedge", "empty" and so on; "" of a zone of which VTK gives the cells behind the faces.
     mesh : pyvista.DataSet
-        Its faces with their values.
+        Its faces with their values, or those cells.
     """
 
     name: str
@@ -240,10 +240,10 @@ def _cells(path: str, mesh: Any, time: float, surfaces: list[Block], conditions:
     if not_in_cells:
         nearest = tree.query(centres)[1]
         cells |= {name: points[name][nearest] for name in not_in_cells}  # for the nearest value alone
-    patches = [_patch(block, facets, tree, conditions) for block in surfaces if block.mesh.max_cell_dimensionality == 2]
-    zones = {block.name: block.mesh for block in surfaces if block.mesh.max_cell_dimensionality == 3}
+    patches = [_patch(block, facets, tree, conditions) for block in surfaces if block.kind]
+    zones = {block.name: block.mesh for block in surfaces if not block.kind}
     for name, faces in faces_of_zones(facets, centres, zones).items() if zones else ():
-        patches.append(Patch(name, "wall" if "wall" in name else "patch", faces, {}, lambda _: "open"))
+        patches.append(Patch(name, "wall" if name.endswith(":wall") else "patch", faces, {}, lambda _: "open"))
     source = CellSource(
         path, cells, centres, time, facets=facets, patches=patches, at_points=points, not_in_cells=not_in_cells
     )
