@@ -20,6 +20,7 @@ from .cells import CellSource, Patch
 from .facets import Facets, Ints, facets_of, is_linear
 from .flattened import one_layer
 from .openfoam import Conditions, FoamCase, Times
+from .soundness import check_cells, check_sizes, check_text
 from .sources import ROUNDING, Source, cell_grid, from_points, grid_source
 from .zones import faces_of_zones
 
@@ -98,11 +99,17 @@ def read_meshes(path: Path, times: Times) -> Iterator[Source]:
     reader = _reader(path)
     have = np.asarray(getattr(reader, "time_values", ()), np.float64)
     if not have.size:
-        yield _source(path, _quietly(path, reader.read), math.nan)
+        yield _source(path, _whole(path, reader), math.nan)
         return
     for time in wished(path, have, times):
         reader.set_active_time_value(time)
-        yield _source(path, _quietly(path, reader.read), time)
+        yield _source(path, _whole(path, reader), time)
+
+
+def _whole(path: Path, reader: Any) -> Any:
+    data = _quietly(path, reader.read)
+    check_cells(path, data)
+    return data
 
 
 def wished(path: Path, have: Floats, times: Times) -> list[float]:
@@ -121,13 +128,15 @@ def wished(path: Path, have: Floats, times: Times) -> list[float]:
 
 def _quietly(path: Path, work: Any) -> Any:
     """Run a reader; what VTK cannot read becomes one error, what it says beside becomes nothing."""
-    from vtkmodules.vtkCommonCore import vtkObject
+    from vtkmodules.vtkCommonCore import vtkLogger
 
-    vtkObject.GlobalWarningDisplayOff()
+    catcher = pyvista().VtkErrorCatcher(raise_errors=False, send_to_logging=False, emit_warnings=False)
+    verbosity = vtkLogger.GetCurrentVerbosityCutoff()
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
     try:
-        with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()), warnings.catch_warnings():
+        with catcher, redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()), warnings.catch_warnings():
             warnings.simplefilter("ignore")  # meshio prints, pyvista warns
-            return work()
+            done = work()
     except InputError:
         raise
     except Exception as error:  # pyvista, VTK and meshio raise whatever they like
@@ -135,13 +144,20 @@ def _quietly(path: Path, work: Any) -> Any:
     except SystemExit as error:  # meshio, of what it does not know
         raise InputError(path, "cannot be read: meshio knows no such file") from error
     finally:
-        vtkObject.GlobalWarningDisplayOn()
+        vtkLogger.SetStderrVerbosity(verbosity)
+    if path.suffix.startswith((".vt", ".pvt")) and catcher.error_events:
+        # VTK goes on with what it has, and leaves the rest as memory was
+        said = str(catcher.error_events[0].alert).strip().splitlines()[0].strip()
+        raise InputError(path, f"is damaged, or cut short: {said}")
+    return done
 
 
 def _reader(path: Path) -> Any:
     pv = pyvista()
     if not path.exists():
         raise InputError(path, "does not exist")
+    check_sizes(path)
+    check_text(path)
     if path.suffix == ".msh":  # VTK has no reader for it
         return _Meshio(pv, path)
     if path.suffix in (".xdmf", ".xmf"):
@@ -166,6 +182,8 @@ class _Xdmf:
         from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
         from vtkmodules.vtkIOXdmf2 import vtkXdmfReader
 
+        if b"<Grid" not in path.read_bytes():  # asked for it, VTK would end
+            raise InputError(path, "holds no grid")
         self.pv, self.reader = pv, vtkXdmfReader()
         self.reader.SetFileName(str(path))
         self.reader.UpdateInformation()
