@@ -31,6 +31,7 @@ include_patterns = [
     "doc/**.md",
     "bench/*.md",
     "python/README.md",
+    "python/src/clusterdem/gas/README.md",
     "src/**.md",
     "src/CLUSTER/doc/*.rst",
     "tests/*.md",

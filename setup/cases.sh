@@ -19,7 +19,7 @@ verb_shear() { # a sheared crowd, where contacts decide breakups, the same way
 
 verb_scene() { # a scene of doc/scenes.md, the same way: NAME [--np N] [-var NAME VALUE …]
   local name=${1:-}
-  [[ $name =~ ^(riser|feed|box3d|two_densities|jet)$ ]] || die "./run scene wants one of: riser feed box3d two_densities jet"
+  [[ $name =~ ^(riser|feed|box3d|two_densities|jet|duct)$ ]] || die "./run scene wants one of: riser feed box3d two_densities jet duct"
   map_grid=(20 40) # cells must be wider than the clusters, and box3d is 20 mm wide
   run_case "$@"
 }

@@ -48,10 +48,27 @@ def test_openfoam_series(tmp_path):
     block = Block()
     u = linear(block.centres)
     case = write_openfoam(tmp_path / "case", block, {t: {"U": (1 + t) * u} for t in (0.0, 0.5, 1.0)})
-    assert main(["gas", "make", str(case), "-o", str(tmp_path / "gas.vtk"), "--grid", "5", "4", "6"]) == 0
+    assert (
+        main(["gas", "make", str(case), "-o", str(tmp_path / "gas.vtk"), "--grid", "5", "4", "6", "--time", "all"]) == 0
+    )
     for steps in (0, 30):
         places, gas = seen(tmp_path / f"run{steps}", "../gas.*.vtk", steps, ranks=2)
         np.testing.assert_allclose(gas, (1 + 0.01 * steps) * linear(places), atol=2e-5)
+
+
+@pytest.mark.parametrize("steps, share", [(10, 0.25), (35, 0.25 + 0.3 * 0.75), (60, 1.0)])
+def test_between_frames(tmp_path, steps, share):
+    """A quarter of a velocity at the first frame and all of it 0.3 s later: linear in between, and these two hold before and
+    after. The series begins at 12.2 s, and at 0.26 s in the run.
+    """
+    block = Block()
+    u = linear(block.centres)
+    values = {12.2: 0.25, 12.5: 1.0}
+    case = write_openfoam(tmp_path / "case", block, {t: {"U": share * u} for t, share in values.items()})
+    words = ["--grid", "5", "4", "6", "--start", "0.26"]
+    assert main(["gas", "make", str(case), "-o", str(tmp_path / "gas.vtk"), *words]) == 0
+    places, gas = seen(tmp_path / "run", "../gas.*.vtk", steps)
+    np.testing.assert_allclose(gas, share * linear(places), atol=2e-5)
 
 
 def test_all_arrays(tmp_path):
@@ -59,7 +76,7 @@ def test_all_arrays(tmp_path):
     block = Block()
     count = len(block.centres)
     fields = {"U": linear(block.centres), "k": np.full(count, 1.5), "rho": np.full(count, 1.2)}
-    case = write_openfoam(tmp_path / "case", block, {0.0: fields})
+    case = write_openfoam(tmp_path / "case", block, {1.0: fields})
     words = ["--grid", "4", "4", "4", "--energy", "k", "--density", "rho", "--dynamic-viscosity", "1.8e-5"]
     assert main(["gas", "make", str(case), "-o", str(tmp_path / "gas.vtk"), *words]) == 0
     places, gas = seen(tmp_path / "run", "../gas.vtk", gusts="fluctuation 1 1 1 own frozen 7")

@@ -12,6 +12,7 @@ SCENES = {
     "box3d": (800_000, {"tend": 1e-3}),
     "two_densities": (800_000, {"tend": 6e-3}),
     "jet": (240_000, {"tend": 2e-3}),
+    "duct": (160_000, {"clusters": 400, "tend": 0.042}),
 }
 
 

@@ -122,6 +122,46 @@ def write_fluent(path: Path, block: Block, fields: dict[int, np.ndarray]) -> Pat
     return path
 
 
+def write_fluent_channel(path: Path, counts=(6, 8), speed=5.0) -> Path:
+    """A plane Fluent case: uniform flow along y through 0.3 × 0.6 m between walls, in at y = 0 and out at the other end."""
+    nx, ny = counts
+    points = [(x, y) for y in np.linspace(0, 0.6, ny + 1).tolist() for x in np.linspace(0, 0.3, nx + 1).tolist()]
+
+    def point(i, j):
+        return i + (nx + 1) * j + 1
+
+    def cell(i, j):
+        return i + nx * j + 1 if 0 <= i < nx and 0 <= j < ny else 0
+
+    zones: dict[str, list] = {"interior": [], "walls": [], "in": [], "out": []}
+    for j in range(ny):
+        for i in range(nx + 1):
+            zones["interior" if 0 < i < nx else "walls"].append(
+                (point(i, j), point(i, j + 1), cell(i - 1, j), cell(i, j))
+            )
+    for j in range(ny + 1):
+        for i in range(nx):
+            name = "interior" if 0 < j < ny else "in" if j == 0 else "out"
+            zones[name].append((point(i, j), point(i + 1, j), cell(i, j), cell(i, j - 1)))
+    cells, faces = nx * ny, sum(map(len, zones.values()))
+    text = f'(0 "channel")\n(2 2)\n(10 (0 1 {len(points):x} 0 2))\n(10 (1 1 {len(points):x} 1 2)(\n'
+    text += "\n".join(f"{x!r} {y!r}" for x, y in points) + "\n))\n"
+    text += f"(12 (0 1 {cells:x} 0 0))\n(12 (2 1 {cells:x} 1 3))\n(13 (0 1 {faces:x} 0 0))\n"
+    first = 1
+    for zone, (rows, kind) in enumerate(zip(zones.values(), (2, 3, 10, 5)), start=3):
+        rows = [row if row[2] else (row[1], row[0], row[3], 0) for row in rows]  # the cell that is there comes first
+        lines = "\n".join(" ".join(f"{v:x}" for v in row) for row in rows)
+        text += f"(13 ({zone:x} {first:x} {first + len(rows) - 1:x} {kind:x} 2)(\n{lines}\n))\n"
+        first += len(rows)
+    text += "(45 (2 fluid fluid)())\n(45 (3 interior inside)())\n(45 (4 wall sides)())\n"
+    path.write_text(text + "(45 (5 velocity-inlet in-by-the-wall)())\n(45 (6 pressure-outlet out)())\n")
+    data = '(0 "channel")\n'
+    for number, value in ((111, 0.0), (112, speed)):
+        data += f"(300 ({number} 2 1 0 0 1 {cells})\n(" + "\n".join([repr(value)] * cells) + "\n))\n"
+    path.with_suffix(".dat").write_text(data)
+    return path
+
+
 def linear(points):
     """A velocity that is linear in the place."""
     x, y, z = np.asarray(points).T

@@ -16,6 +16,7 @@ from ..errors import InputError
 from ..frame import Box, Floats
 from .divergence import divergence
 from .field import NAMES, UNITS, VECTORS, GasField
+from .sections import balance
 
 SOUND = 343.0
 """Speed of sound in air at 20 °C (m/s)."""
@@ -27,8 +28,8 @@ DYNAMIC = (5e-6, 2e-4)
 """Gases up to 2000 K or so (Pa·s), at any pressure; air at 20 °C: 1.8e-5."""
 OTHER_UNIT = 100.0
 """Box and field that differ in length by this factor are in different units."""
-MUCH_DIVERGENCE = 0.1
-"""r.m.s. div u · L / U from which it is worth a warning: the gas gains or loses a tenth on its way."""
+MUCH_CHANGE = 0.1
+"""Change of the flux through sections from which it is worth a warning: the gas gains or loses a tenth on its way."""
 SAME = 1e-6
 """Relative difference below which lengths, planes and grids are the same."""
 
@@ -39,17 +40,20 @@ class Finding:
 
     Parameters
     ----------
-    level : {"error", "warning"}
-        An error stops a run, or must.
+    level : {"error", "warning", "note"}
+        An error stops a run, or must; a note is no fault.
     path : str
         The file.
     rule : str
         What, in one line.
+    kind : str
+        Warnings of one kind are told once for a series; "" for one of its own.
     """
 
     level: str
     path: str
     rule: str
+    kind: str = ""
 
     def __str__(self) -> str:
         return f"{self.path}: {self.level}: {self.rule}"
@@ -68,7 +72,16 @@ def check_field(gas: GasField) -> list[Finding]:
     errors = _axes(gas) + [rule for name in NAMES if name in gas for rule in _numbers(gas, name)]
     if errors:
         return [Finding("error", gas.path, rule) for rule in errors]
-    return [Finding("warning", gas.path, rule) for rule in (*_units(gas), *_divergence(gas))]
+    warnings = [Finding("warning", gas.path, rule, kind) for kind, rule in (*_units(gas), *_conservation(gas))]
+    return warnings + _solids(gas)
+
+
+def _solids(gas: GasField) -> list[Finding]:
+    if gas.solid is None or not gas.solid.any():
+        return []
+    count = int(gas.solid.sum())
+    rule = f"{count:,} of {gas.solid.size:,} points lie in solids, the first at {_first(gas, gas.solid)}: at rest there"
+    return [Finding("note", gas.path, rule, "solids")]
 
 
 def _axes(gas: GasField) -> list[str]:
@@ -102,42 +115,44 @@ def _first(gas: GasField, points: Any) -> str:
     return gas.place(int(np.argmax(points)))
 
 
-def _units(gas: GasField) -> list[str]:
+def _units(gas: GasField) -> list[tuple[str, str]]:
     rules = []
     fastest = int(np.argmax(gas.speed))
     speed = float(gas.speed.flat[fastest])
     if speed > SOUND:
         rule = f"the velocity reaches {speed:.4g} m/s at {gas.place(fastest)}, faster than sound ({SOUND:g} m/s)"
-        rules.append(f"{rule}: was it in mm/s or cm/s? (--velocity-unit)")
+        rules.append(("speed", f"{rule}: was it in mm/s or cm/s? (--velocity-unit)"))
     elif speed == 0:
-        rules.append("the gas is at rest everywhere")
+        rules.append(("rest", "the gas is at rest everywhere"))
     for name, (least, most) in (("density", DENSITIES), ("viscosity", KINEMATIC)):
         if name in gas:
             low, high = float(gas[name].min()), float(gas[name].max())
             if low < least or high > most:
                 found = f"{name} is {low:.4g} to {high:.4g} {UNITS[name]}, that of a gas is {least:g} to {most:g}"
-                rules.append(found + (": is it the kinematic one, in SI units?" if name == "viscosity" else ""))
+                rules.append((name, found + (": is it the kinematic one, in SI units?" if name == "viscosity" else "")))
     if "density" in gas and "viscosity" in gas:
         dynamic = gas["density"] * gas["viscosity"]
         low, high = float(dynamic.min()), float(dynamic.max())
         if low < DYNAMIC[0] or high > DYNAMIC[1]:
-            rules.append(
+            rule = (
                 f"density times viscosity is {low:.4g} to {high:.4g} Pa s, that of a gas is {DYNAMIC[0]:g} to "
                 f"{DYNAMIC[1]:g}: viscosity must be the kinematic one, in m^2/s (--dynamic-viscosity converts)"
             )
+            rules.append(("dynamic viscosity", rule))
     return rules
 
 
-def _divergence(gas: GasField) -> list[str]:
-    found = divergence(gas)
-    if found.relative <= MUCH_DIVERGENCE:
+def _conservation(gas: GasField) -> list[tuple[str, str]]:
+    found = balance(gas)
+    if found.change <= MUCH_CHANGE:
         return []
-    what = "div(rho u)/rho" if "density" in gas else "div u"
-    return [
-        f"{what} is {found.rms:.3g} 1/s r.m.s., {found.relative:.2g} of the speed over the length, and "
-        f"{found.most:.3g} at {gas.place(found.where)}: not conserved as it stands (right for the superficial velocity "
-        "in a bed that changes, and for a plane cut out of a 3-D flow)"
-    ]
+    what = "flux of mass" if "density" in gas else "flux"
+    rule = (
+        f"the {what} through sections across {found.axis} changes by {100 * found.change:.3g} % of the largest, most at "
+        f"{found.axis} = {found.place:.4g} m: not conserved as it stands (right for the superficial velocity in a bed "
+        "that changes, and for a plane cut out of a 3-D flow)"
+    )
+    return [("conservation", rule)]
 
 
 def check_cover(gas: GasField, box: Box, edges: Mapping[str, str] | None = None) -> list[Finding]:
@@ -249,13 +264,16 @@ def describe(gas: GasField) -> str:
             lines.append(f"  {name}: {size.min():.4g} to {size.max():.4g} {UNITS[name]}, mean ({mean})")
         else:
             lines.append(f"  {name}: {values.min():.4g} to {values.max():.4g} {UNITS[name]}, mean {values.mean():.4g}")
+    lines += [f"  {line}" for line in gas.provenance.splitlines()]
     return "\n".join(lines)
 
 
-def describe_divergence(gas: GasField) -> str:
-    """A line about a field without errors."""
-    found = divergence(gas)
+def describe_conservation(gas: GasField) -> str:
+    """Two lines about a field without errors."""
+    found, flux = divergence(gas), balance(gas)
     return (
-        f"  divergence: {found.rms:.3g} 1/s r.m.s. ({found.relative:.2g} of the speed over the length), "
-        f"at most {found.most:.3g} at {gas.place(found.where)}"
+        f"  flux through sections: changes by {100 * flux.change:.3g} % of the largest, most at "
+        f"{flux.axis} = {flux.place:.4g} m\n"
+        f"  divergence, walls and solids left out: {found.rms:.3g} 1/s r.m.s., at most {found.most:.3g} at "
+        f"{gas.place(found.where)}"
     )

@@ -19,7 +19,8 @@ from .field import GasField
 STREAM_POINTS = 200
 """Points along the longer side of the even grid that streamlines are drawn on."""
 
-SCALAR_PANELS = (("density", "density (kg/m³)", 1.0), ("viscosity", "kinematic viscosity (mm²/s)", 1e6))
+SCALAR_PANELS = (("density", "density (kg/m³)", 1.0), ("viscosity", "kinematic viscosity (mm²/s)", 1e6),
+    ("period", "lifetime of eddies (ms)", 1e3), ("eddy_size", "size of eddies (mm)", 1e3))  # fmt: skip
 
 
 def draw_gas(gas: GasField, y: float | None = None) -> Figure:
@@ -37,10 +38,11 @@ def draw_gas(gas: GasField, y: float | None = None) -> Figure:
         raise InputError(gas.path, "needs two points or more along x and along z to be drawn")
     k = int(np.argmin(np.abs(ys - (ys.mean() if y is None else y))))
     velocity, div = gas["velocity"][:, k], divergence(gas)
-    most = float(np.percentile(np.abs(div.map[:, k]), 99)) or 1.0
+    spread = np.where(div.inner, div.map, 0.0)[:, k]  # walls and solids left out
+    most = float(np.percentile(np.abs(spread), 99)) or 1.0
     panels: list[Callable[[Any], Any]] = [
         lambda a: _speed(a, x, z, velocity),
-        lambda a: _map(a, x, z, div.map[:, k], "divergence (1/s)", "RdBu_r", (-most, most)),
+        lambda a: _map(a, x, z, spread, "divergence (1/s)", "RdBu_r", (-most, most)),
     ]
     if "fluctuation" in gas:
         amplitude = np.linalg.norm(gas["fluctuation"][:, k], axis=-1)
@@ -57,11 +59,14 @@ def draw_gas(gas: GasField, y: float | None = None) -> Figure:
         axes = figure.subplots(1, len(panels) + 1)
         for axis, panel in zip(axes, panels):
             panel(axis)
+            if gas.solid is not None and gas.solid[:, k].any():
+                axis.contourf(1e3 * x, 1e3 * z, gas.solid[:, k].T, levels=[0.5, 1.5], colors=["0.55"])
         _profile(axes[-1], z, velocity)
         axes[-1].set_box_aspect(shape)
         axes[0].set_ylabel("z (mm)")
         words = [] if math.isnan(gas.time) else [f"t = {gas.time:.4g} s"]
         words += [f"y = {1e3 * ys[k]:.4g} mm"] if ys.size > 1 else []
+        words += ["grey: solids"] if gas.solid is not None and gas.solid[:, k].any() else []
         if words:
             figure.suptitle(", ".join(words), fontsize=8)
     return figure

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 from urllib.parse import unquote
 
 import numpy as np
@@ -41,12 +42,15 @@ class LegacyGrid:
         Arrays at points and in cells, x fastest.
     time : float
         The field ``TIME``; NaN if there is none.
+    provenance : str
+        The field ``PROVENANCE``: where the gas is from.
     """
 
     axes: Axes
     points: dict[str, Floats] = field(default_factory=dict)
     cells: dict[str, Floats] = field(default_factory=dict)
     time: float = math.nan
+    provenance: str = ""
 
 
 class _Scanner:
@@ -135,6 +139,7 @@ class _Body:
         self.axes: dict[str, Floats] = {}
         self.uniform: dict[str, Floats] = {}
         self.time = math.nan
+        self.provenance = ""
         self.arrays: dict[str, dict[str, Floats]] = {"POINT_DATA": {}, "CELL_DATA": {}}
 
     def read(self) -> LegacyGrid:
@@ -156,7 +161,9 @@ class _Body:
                 self._geometry(key, words)
         if not any(self.arrays.values()):  # with one, DIMENSIONS are no larger than what the file holds
             raise scan.fail("has no array velocity, nor any other")
-        return LegacyGrid(self._points(), self.arrays["POINT_DATA"], self.arrays["CELL_DATA"], self.time)
+        return LegacyGrid(
+            self._points(), self.arrays["POINT_DATA"], self.arrays["CELL_DATA"], self.time, self.provenance
+        )
 
     def _geometry(self, key: str, words: list[str]) -> None:
         scan = self.scan
@@ -213,6 +220,8 @@ class _Body:
                 here[name] = values
             elif name == "TIME" and values.size:
                 self.time = float(values.flat[0])
+            elif name == "PROVENANCE" and words[3] == "unsigned_char":
+                self.provenance = values.astype(np.uint8).tobytes().decode("utf-8", errors="replace").strip()
 
     def _points(self) -> Axes:
         if not self.size:
@@ -254,7 +263,10 @@ def read_field(path: str | Path) -> GasField:
         found = ", ".join(grid.points) or "none"
         hint = "; cells have one: clusterdem gas make puts it at points" if "velocity" in grid.cells else ""
         raise InputError(path, f"has no array velocity at its points (arrays there: {found}){hint}")
-    return GasField(grid.axes, arrays, grid.time, str(path))
+    solid = None
+    if "solid" in grid.points and grid.points["solid"].size == math.prod(shape):
+        solid = np.moveaxis(grid.points["solid"].reshape(shape), (0, 1, 2), (2, 1, 0)) != 0
+    return GasField(grid.axes, arrays, grid.time, str(path), solid, grid.provenance)
 
 
 def write_field(path: str | Path, gas: GasField, ascii: bool = False) -> Path:
@@ -269,15 +281,25 @@ def write_field(path: str | Path, gas: GasField, ascii: bool = False) -> Path:
     ascii : bool
         Numbers as text (with all their digits) instead of binary.
     """
-    blocks: list[tuple[str, Floats | None]] = []
+    blocks: list[tuple[str, NDArray[Any] | None]] = []
+    beside: list[tuple[str, NDArray[Any] | None]] = []
     if not math.isnan(gas.time):
-        blocks += [("FIELD FieldData 1\nTIME 1 1 double\n", np.array([gas.time]))]
+        beside += [("TIME 1 1 double\n", np.array([gas.time]))]
+    if gas.provenance:
+        # of bytes, not of type string, which the engine does not know; so the text stands in binary files as it is
+        text = np.frombuffer(f"\n{gas.provenance}\n".encode(), np.uint8)
+        beside += [(f"PROVENANCE {text.size} 1 unsigned_char\n", text)]
+    if beside:
+        blocks += [(f"FIELD FieldData {len(beside)}\n", None), *beside]
     blocks += [("DIMENSIONS {} {} {}\n".format(*gas.shape), None)]
     blocks += [(f"{a}_COORDINATES {axis.size} double\n", axis) for a, axis in zip("XYZ", gas.axes)]
     blocks += [(f"POINT_DATA {math.prod(gas.shape)}\n", None)]
     for name, values in gas.arrays.items():
         head = f"VECTORS {name} double\n" if name in VECTORS else f"SCALARS {name} double 1\nLOOKUP_TABLE default\n"
         blocks += [(head, np.moveaxis(values, (0, 1, 2), (2, 1, 0)))]
+    if gas.solid is not None:
+        solid = np.moveaxis(gas.solid.astype(np.uint8), (0, 1, 2), (2, 1, 0))
+        blocks += [("SCALARS solid unsigned_char 1\nLOOKUP_TABLE default\n", solid)]
     with atomic(path) as name_to_write, open(name_to_write, "wb") as file:
         file.write(f"# vtk DataFile Version 3.0\n{TITLE}\n{'ASCII' if ascii else 'BINARY'}\n".encode())
         file.write(b"DATASET RECTILINEAR_GRID\n")
@@ -288,5 +310,6 @@ def write_field(path: str | Path, gas: GasField, ascii: bool = False) -> Path:
             if ascii:
                 file.write(("\n".join(map(repr, numbers.ravel().tolist())) + "\n").encode())
             else:
-                file.write(np.ascontiguousarray(numbers, ">f8").tobytes() + b"\n")
+                kind = numbers.dtype if numbers.dtype == np.uint8 else ">f8"
+                file.write(np.ascontiguousarray(numbers, kind).tobytes() + b"\n")
     return Path(path)

@@ -20,35 +20,38 @@ FLAT = 1e-6
 """Directions along which a cell's neighbours spread less than this share of their spread get no gradient."""
 
 
-def cells_to_points(points: Floats, centres: Floats, cell: Ints, point: Ints, values: Floats) -> Floats:
-    """Values at the points of a mesh.
+def continued(places: Floats, centres: Floats, cell: Ints, place: Ints, values: Floats, gradient: Floats) -> Floats:
+    """Values at places: the mean of what the linear functions of the cells around give there.
 
     Parameters
     ----------
-    points, centres : ndarray, shape (P, 3) and (C, 3)
-        Points of the mesh and centres of its cells.
-    cell, point : ndarray of int, shape (M,)
-        Which cell has which point: one entry for each corner of each cell.
+    places, centres : ndarray, shape (P, 3) and (C, 3)
+        Points of the mesh or middles of its facets, and centres of its cells.
+    cell, place : ndarray of int, shape (M,)
+        Which cell has which place: one entry for each pair.
     values : ndarray, shape (C, k)
         Values in cells.
+    gradient : ndarray, shape (C, 3, k)
+        Their gradients.
 
     Returns
     -------
-    ndarray, shape (P, k); NaN at points of no cell
+    ndarray, shape (P, k); NaN at places of no cell
     """
-    gradient = _gradients(points, centres, cell, point, values)
-    away = points[point] - centres[cell]
-    count = np.bincount(point, minlength=len(points))
-    result = np.full((len(points), values.shape[1]), np.nan)
+    away = places[place] - centres[cell]
+    count = np.bincount(place, minlength=len(places))
+    result = np.full((len(places), values.shape[1]), np.nan)
     used = count > 0
     for k in range(values.shape[1]):
-        at_corner = values[cell, k] + np.einsum("mi,mi->m", gradient[cell, :, k], away)
-        result[used, k] = np.bincount(point, at_corner, len(points))[used] / count[used]
+        there = values[cell, k] + np.einsum("mi,mi->m", gradient[cell, :, k], away)
+        if values.shape[1] == 1 and values.min() >= 0:  # what is positive stays so: this cell goes on as it is
+            there = np.where(there <= 0, values[cell, k], there)
+        result[used, k] = np.bincount(place, there, len(places))[used] / count[used]
     return result
 
 
-def _gradients(points: Floats, centres: Floats, cell: Ints, point: Ints, values: Floats) -> Floats:
-    """Least-squares gradient of each cell, shape (C, 3, k).
+def gradients(points: Floats, centres: Floats, cell: Ints, point: Ints, values: Floats) -> Floats:
+    """Least-squares gradient of values (C, k) in cells, shape (C, 3, k); ``cell`` and ``point`` as above.
 
     Neighbours weigh as many times as they share points. Sums over the cells around each point are made once, relative
     to the point (no cancellation), and then gathered by the cells that have it: nothing grows with pairs of cells.

@@ -4,18 +4,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..frame import Floats
 from .axes import Placement
 from .field import Axes, GasField
 from .quantities import Recipe
+from .revolve import mirrored, revolved, with_vector
+from .sections import KeptFlux, corrected, kept_flux
 from .sources import ROUNDING, GridSource, Source
 
+Flags = NDArray[np.bool_]
+
 MOST_POINTS = 200_000_000
+SINGLE = 1e-7
+"""Rounding of float32, in which meshes are often held, relative."""
 NEAR_SIDE = 1e-9
 """Share of a length below which two numbers are one."""
 
@@ -150,47 +158,131 @@ def _own_grid(source: GridSource, recipe: Recipe, placement: Placement) -> tuple
     return placement.axes(source.axes), {name: source.arrays[name][order] for name in names}
 
 
-def resample(source: Source, recipe: Recipe, placement: Placement, target: Target, fill: bool) -> GasField:
-    """Make a gas field of a source.
+@dataclass(frozen=True)
+class Making:
+    """How a field is made of a source.
 
     Parameters
     ----------
-    source : Source
-        The CFD result.
     recipe : Recipe
         Which of its arrays are the gas.
     placement : Placement
         Where it lies in the box.
     target : Target
         The grid.
-    fill : bool
-        Give points outside the source the values of its nearest point instead of refusing them.
+    fill : {"", "rest", "nearest"}
+        What points get that the mesh does not cover: rest, or the values of the nearest point. "": rest within the
+        extent of the mesh, where solids are; beyond it they are refused.
+    no_slip : bool
+        The velocity vanishes at walls, whatever the file says.
+    mirror : sequence of str
+        Ends of the source at which it is mirrored, such as ``x-``.
+    revolve : str
+        Its axis about which it is turned, "" for none.
+    keep_flux : bool
+        Sections are scaled to the flux of the source.
     """
+
+    recipe: Recipe
+    placement: Placement
+    target: Target
+    fill: str = ""
+    no_slip: bool = False
+    mirror: Sequence[str] = ()
+    revolve: str = ""
+    keep_flux: bool = False
+
+    def prepared(self, source: Source) -> tuple[Source, Recipe]:
+        """The source with what the options say of it as a whole."""
+        names = self.recipe.velocity_names(source.path, source.arrays)
+        recipe = self.recipe
+        if self.no_slip:
+            if not source.walls:
+                rule = (
+                    f"noslip: {source.path} does not tell which of its faces are walls (OpenFOAM and Fluent cases do)"
+                )
+                raise InputError("--wall", rule)
+            source.no_slip = frozenset(names)
+        if (self.mirror or self.revolve) and len(names) == 3:
+            source, one = with_vector(source, names)
+            recipe = replace(recipe, velocity=(one,))
+        if self.revolve:
+            source = revolved(source, self.revolve)
+        return mirrored(source, self.mirror), recipe
+
+
+def resample(source: Source, making: Making) -> tuple[GasField, KeptFlux | None]:
+    """Make a gas field of a source.
+
+    Returns
+    -------
+    GasField, KeptFlux or None
+        The flux is that before any correction; None where the grid is the source's own.
+    """
+    source, recipe = making.prepared(source)
+    placement, target = making.placement, making.target
     own = target == Target(periodic=target.periodic)  # nothing asked for
     flat_x, flat_y, flat_z = _flat(*_extent(source, placement))
     if flat_z and not (flat_x or flat_y):
         raise InputError(source.path, "lies in a plane of constant z; if its y is upward, turn it: --axes x,-z,y")
     names = recipe.names(source.path, source.arrays)
+    periods = _periods(target, source, placement)
+    between = _continued(source, periods, placement)
     if own and isinstance(source, GridSource):
         axes, samples = _own_grid(source, recipe, placement)
-        places = _points(axes)
-        samples = _filled(source, samples, placement.back(places), places, fill)
+        planes: list[float] = []
     else:
         axes, planes = target_axes(target, source, placement)
-        periods = _periods(target, source, placement)
-        between = _continued(source, periods, placement)
-        parts = [_points(axes, plane) for plane in planes] or [_points(axes)]
-        wholes = [between.sample(placement.back(_wrapped(p, periods, between, placement)), names) for p in parts]
-        samples = {name: _mean([whole[name] for whole in wholes]) for name in names}
-        places = _points(axes)
-        samples = _filled(source, samples, placement.back(places), places, fill)
-    flat = recipe.gas(source.path, samples, placement)
+        samples = _at_planes(between, placement, periods, axes, planes, names)
+    places = _points(axes)
+    solid = _uncovered(
+        source, samples, placement.back(_wrapped(places, periods, between, placement)), places, making.fill
+    )
+    if solid is not None:
+        moving = recipe.moving(source.path, source.arrays) if making.fill != "nearest" else set()
+        samples = _filled(source, samples, placement.back(places), solid, moving)
+    gas = _field(source, recipe, placement, axes, samples, None if making.fill == "nearest" else solid)
+    if own and isinstance(source, GridSource):
+        return gas, None
+    still = np.abs(gas["velocity"]) < SINGLE * np.max(np.abs(gas["velocity"]))
+    gas["velocity"][still] = 0.0  # at walls, but for rounding
+
+    def velocity(finer: Axes) -> Floats:
+        found = _at_planes(between, placement, periods, finer, planes, names, means=True)
+        at_rest = {name: np.nan_to_num(values) for name, values in found.items()}
+        return _field(source, recipe, placement, finer, at_rest, None)["velocity"]
+
+    kept = kept_flux(gas, velocity, making.keep_flux)
+    return (corrected(gas, kept) if making.keep_flux else gas), kept
+
+
+def _field(
+    source: Source, recipe: Recipe, placement: Placement, axes: Axes, samples: dict[str, Floats], solid: Flags | None
+) -> GasField:
+    flat: dict[str, Floats] = recipe.gas(source.path, samples, placement)
     shape = tuple(axis.size for axis in reversed(axes))
-    arrays = {
-        name: np.ascontiguousarray(np.moveaxis(v.reshape(*shape, *v.shape[1:]), (0, 1, 2), (2, 1, 0)))
-        for name, v in flat.items()
-    }
-    return GasField(axes, arrays, source.time, source.path)
+
+    def table(values: Any) -> Any:
+        return np.ascontiguousarray(np.moveaxis(values.reshape(*shape, *values.shape[1:]), (0, 1, 2), (2, 1, 0)))
+
+    arrays = {name: table(values) for name, values in flat.items()}
+    return GasField(axes, arrays, source.time, source.path, None if solid is None else table(solid))
+
+
+def _at_planes(
+    source: Source,
+    placement: Placement,
+    periods: dict[int, float],
+    axes: Axes,
+    planes: list[float],
+    names: list[str],
+    means: bool = False,
+) -> dict[str, Floats]:
+    """Samples at a grid, or the mean over planes of it; or what has the flux of the source."""
+    parts = [_points(axes, plane) for plane in planes] or [_points(axes)]
+    ask = source.means if means else source.sample
+    wholes = [ask(placement.back(_wrapped(p, periods, source, placement)), names) for p in parts]
+    return {name: _mean([whole[name] for whole in wholes]) for name in names}
 
 
 def _points(axes: Axes, plane: float | None = None) -> Floats:
@@ -240,21 +332,36 @@ def _mean(planes: list[Floats]) -> Floats:
     return np.divide(total, count, out=np.full_like(total, np.nan), where=count > 0)
 
 
-def _filled(source: Source, samples: dict[str, Floats], back: Floats, places: Floats, fill: bool) -> dict[str, Floats]:
-    gaps = ~np.all([np.isfinite(v).reshape(len(v), -1).all(axis=1) for v in samples.values()], axis=0)
+def _uncovered(source: Source, samples: dict[str, Floats], back: Floats, places: Floats, fill: str) -> Flags | None:
+    """Which points have no value; an error where they can be no solids."""
+    gaps: Flags = ~np.all([np.isfinite(v).reshape(len(v), -1).all(axis=1) for v in samples.values()], axis=0)
     if not gaps.any():
-        return samples
-    if not fill:
-        where = places[gaps]
+        return None
+    low, high = source.bounds
+    margin = ROUNDING * float(np.max(high - low))
+    thin = high - low <= margin
+    within = np.all(thin | ((back >= low - margin) & (back <= high + margin)), axis=1)
+    whole = all(np.isfinite(source.arrays[name]).all() for name in samples)
+    refused = gaps & ~within if whole else gaps
+    if fill == "" and refused.any():
+        where = places[refused]
         spans = ", ".join(f"{a} {lo:.6g} to {hi:.6g}" for a, lo, hi in zip("xyz", where.min(axis=0), where.max(axis=0)))
         first = ", ".join(f"{v:.6g}" for v in where[0])
         rule = (
-            f"{int(gaps.sum()):,} of {len(places):,} points lie outside its mesh or have no number ({spans} m; "
-            f"the first at {first}): another --box, --shift or --length-unit, or --fill nearest"
+            f"{int(refused.sum()):,} of {len(places):,} points lie outside its mesh or have no number ({spans} m; "
+            f"the first at {first}): another --box, --shift or --length-unit, or --fill rest or nearest"
         )
         raise InputError(source.path, rule)
-    nearest = source.nearest(back[gaps], samples)
-    for name, values in nearest.items():
+    return gaps
+
+
+def _filled(
+    source: Source, samples: dict[str, Floats], back: Floats, gaps: Flags, moving: set[str]
+) -> dict[str, Floats]:
+    """Nothing moves at the gaps; other values are those of the nearest points."""
+    rest = [name for name in samples if name not in moving]
+    nearest = source.nearest(back[gaps], rest) if rest else {}
+    for name in samples:
         samples[name] = samples[name].copy()
-        samples[name][gaps] = values
+        samples[name][gaps] = nearest.get(name, 0.0)
     return samples

@@ -6,7 +6,7 @@ All three interpolate linearly: exact for linear fields, second-order for smooth
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -39,12 +39,33 @@ class Source:
         Where, in the file's own units and axes.
     time : float
         Time (s); NaN if the file does not tell.
+    no_slip : frozenset of str
+        Arrays that vanish at walls, whatever the file says.
+    notes : sequence of str
+        What the user should know of it.
+    steady : bool
+        It is the result of a steady solver, whose times are iterations.
+    units : mapping of str to str
+        Units that the file tells, of its arrays, and of its coordinates under "".
     """
 
     path: str
     arrays: Arrays
     points: Floats
     time: float = math.nan
+    no_slip: frozenset[str] = frozenset()
+    notes: Sequence[str] = ()
+    steady: bool = False
+    units: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def walls(self) -> list[str]:
+        """Names of its walls, as far as the file tells them."""
+        return []
+
+    def slipping(self, names: Iterable[str]) -> list[str]:
+        """Those of its walls at which it knows no values of the velocity's arrays."""
+        return []
 
     @property
     def bounds(self) -> tuple[Floats, Floats]:
@@ -52,15 +73,20 @@ class Source:
         return self.points.min(axis=0), self.points.max(axis=0)
 
     def snapped(self, places: Floats) -> Floats:
-        """Places outside the bounds by no more than rounding put onto them."""
+        """Places off the bounds by no more than rounding, to either side, put onto them."""
         low, high = self.bounds
         margin = ROUNDING * float(np.max(high - low))
-        inside = np.clip(places, low, high)
-        return np.where(np.abs(inside - places) <= margin, inside, places)
+        for end in (low, high):
+            places = np.where(np.abs(places - end) <= margin, end, places)
+        return places
 
     def sample(self, places: Floats, names: Iterable[str]) -> dict[str, Floats]:
         """Values at places, shape (N, 3); NaN outside."""
         raise NotImplementedError
+
+    def means(self, places: Floats, names: Iterable[str]) -> dict[str, Floats]:
+        """Values whose integral over a section is the flux of the source: those of its cells, as they are, if it has such."""
+        return self.sample(places, names)
 
     def nearest(self, places: Floats, names: Iterable[str]) -> dict[str, Floats]:
         """Values of the nearest points that have finite ones."""
@@ -138,7 +164,7 @@ def grid_source(path: str, axes: Axes, arrays: Arrays, time: float = math.nan) -
     x, y, z = (axis[::-1] if flip else axis for axis, flip in zip(axes, flips))
     mesh = np.meshgrid(z, y, x, indexing="ij")
     points = np.stack([m.ravel() for m in reversed(mesh)], axis=1)
-    return GridSource(path, {name: values[order] for name, values in arrays.items()}, points, time, (x, y, z))
+    return GridSource(path, {name: v[order] for name, v in arrays.items()}, points, time, axes=(x, y, z))
 
 
 def cell_grid(path: str, axes: Axes, cells: Arrays, time: float = math.nan) -> GridSource:
@@ -208,3 +234,29 @@ def from_points(path: str, points: Floats, arrays: Arrays, time: float = math.na
         order = np.argsort(flat)
         return grid_source(path, (x, y, z), {name: values[order] for name, values in arrays.items()}, time)
     return CloudSource(path, arrays, points, time)
+
+
+def joined(sources: Sequence[Source]) -> Source:
+    """Parts of one time as one source: further arrays of the same points, or further points with the same arrays."""
+    first, arrays = sources[0], dict(sources[0].arrays)
+    points = first.points
+    for other in sources[1:]:
+        size = float(np.max(np.ptp(points, axis=0), initial=0.0))
+        same = len(points) == len(other.points) and bool(
+            np.allclose(points, other.points, rtol=0, atol=ROUNDING * size)
+        )
+        if same:
+            arrays = {**other.arrays, **arrays}
+        elif set(arrays) == set(other.arrays):
+            points = np.concatenate([points, other.points])
+            arrays = {name: np.concatenate([values, other.arrays[name]]) for name, values in arrays.items()}
+        else:
+            rule = f"cannot be joined with {first.path}: it has neither the same points nor the same arrays"
+            raise InputError(other.path, f"{rule} ({', '.join(sorted(other.arrays))}; {', '.join(sorted(arrays))})")
+    if len(points) > len(first.points):  # where parts meet, a point stands in both
+        size = float(np.max(np.ptp(points, axis=0)))
+        _, once = np.unique(np.round(points / (ROUNDING * size)), axis=0, return_index=True)
+        points, arrays = points[once], {name: values[once] for name, values in arrays.items()}
+    whole = from_points(first.path, points, arrays, first.time)
+    whole.units = first.units
+    return whole

@@ -11,7 +11,7 @@ import argparse
 from pathlib import Path
 
 from ...errors import InputError
-from ...gas.checks import check_cover, check_field, check_series, describe, describe_divergence, refuse
+from ...gas.checks import check_cover, check_field, check_series, describe, describe_conservation, refuse
 from ...gas.legacy import read_field
 from .common import add_box, box_of, box_of_dump, checked_box
 
@@ -37,13 +37,16 @@ def run(options: argparse.Namespace) -> None:
         print(describe(gas))
         own = check_field(gas)
         if all(finding.level != "error" for finding in own):
-            print(describe_divergence(gas))
+            print(describe_conservation(gas))
         if box is not None:
             own += check_cover(gas, box, edges)
         found += own
         fields.append(gas)
     found += check_series(fields)
+    once = set()
     for finding in found:
-        print(finding)
+        if not finding.kind or finding.kind not in once:  # a kind of warning is told once for a series
+            print(finding)
+        once.add(finding.kind)
     refuse(found)
-    print("no errors" if found else "nothing found")
+    print("no errors" if any(finding.level == "warning" for finding in found) else "nothing found")

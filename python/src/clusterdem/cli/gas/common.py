@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+import glob
+import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -10,10 +12,9 @@ from pathlib import Path
 from ...errors import InputError
 from ...frame import Box
 from ...gas.checks import Finding
+from ...gas.legacy import TITLE
 from ...io.header import read_header
 from ...io.streams import open_lines
-
-MOST_WARNINGS = 4
 
 
 def add_box(parser: argparse.ArgumentParser, help: str) -> None:
@@ -60,17 +61,36 @@ def box_of_dump(path: Path) -> Box:
     return header.box
 
 
+FRAME = re.compile(r"\.\d{4,}$")
+
+
+def remove_old_frames(path: Path) -> int:
+    """Remove the frames that an earlier series left beside ``path``, so that ``field gas.*.vtk`` finds one series.
+
+    Files that this program did not write stay.
+    """
+    count = 0
+    for old in sorted(path.parent.glob(f"{glob.escape(path.stem)}.*{path.suffix}")):
+        if not FRAME.fullmatch(old.stem[len(path.stem) :]):
+            continue
+        with open(old, "rb") as file:
+            ours = file.read(200).splitlines()[1:2] == [TITLE.encode()]
+        if ours:
+            old.unlink()
+            count += 1
+    return count
+
+
 def numbered(path: Path, number: int) -> Path:
     """Of ``gas.vtk`` ``gas.0003.vtk``."""
     return path.with_name(f"{path.stem}.{number:04d}{path.suffix}")
 
 
 def warn(findings: Sequence[Finding]) -> None:
-    """Print the first warnings to stderr."""
-    warnings = [finding for finding in findings if finding.level == "warning"]
-    for finding in warnings[:MOST_WARNINGS]:
-        print(finding, file=sys.stderr)
-    if more := warnings[MOST_WARNINGS:]:
-        print(
-            f"and {len(more)} more warnings, such as each frame has; clusterdem gas check lists them", file=sys.stderr
-        )
+    """Print warnings and notes to stderr, one line for each kind."""
+    mild = [finding for finding in findings if finding.level != "error"]
+    kinds = dict.fromkeys(finding.kind or str(finding) for finding in mild)
+    for kind in kinds:
+        same = [finding for finding in mild if (finding.kind or str(finding)) == kind]
+        more = f" (and {len(same) - 1} more files)" if len(same) > 1 else ""
+        print(f"{same[0]}{more}", file=sys.stderr)
