@@ -55,6 +55,7 @@ void GasFrames::prepare(double t)
 {
   if (outdated(box, domain->boxlo, domain->boxhi)) fit_box();
   if (outdated(mine, domain->sublo, domain->subhi)) fit_part();
+  series.warn_outside(t);
   hold(series.at(t));
 }
 

@@ -19,7 +19,7 @@ using namespace LAMMPS_NS;
 /* ---------------------------------------------------------------------- */
 
 GasSeries::GasSeries(LAMMPS *lmp, const std::string &fix, const std::string &word, int caret) :
-    EnginePointers(lmp), me(fix + ": field " + word), period(0.0)
+    EnginePointers(lmp), me(fix + ": field " + word), period(0.0), told_before(false), told_after(false)
 {
   if (comm->me == 0) {
     try {
@@ -154,4 +154,23 @@ void GasSeries::set_period(double p, int caret)
     error->all(FLERR, caret, "{}: loop {} [time] is shorter than the series, which lasts {}", me, p,
                times.back() - times.front());
   period = p;
+}
+
+/* ----------------------------------------------------------------------
+   before its first frame and after its last a series stands still, which is seldom meant
+------------------------------------------------------------------------- */
+
+void GasSeries::warn_outside(double t)
+{
+  if (times.size() < 2 || period > 0.0) return;
+  const double rounding = 1.0e-6 * (times.back() - times.front());
+  const bool before = t < times.front() - rounding, after = t > times.back() + rounding;
+  bool &told = before ? told_before : told_after;
+  if (!(before || after) || told) return;
+  told = true;
+  if (comm->me == 0)
+    error->warning(FLERR,
+                   "{}: time {:.6g} of the run is {} the series, which goes from {:.6g} to {:.6g}: its {} frame holds. Give "
+                   "the run or the series another start, or the keyword loop",
+                   me, t, before ? "before" : "after", times.front(), times.back(), before ? "first" : "last");
 }

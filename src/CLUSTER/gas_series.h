@@ -32,12 +32,14 @@ class GasSeries : protected EnginePointers {
   double begin() const { return times.front(); }
   double end() const { return times.back(); }
   ClusterDEM::FramePair at(double t) const { return ClusterDEM::frames_at(times, period, t); }
+  void warn_outside(double t);    // once before and once after its frames
 
  private:
   std::string me;
   std::vector<GasFile> files;    // by time
   std::vector<double> times;
   double period;    // in time; 0: the series does not repeat
+  bool told_before, told_after;
 
   std::vector<GasFile> open_all(const std::string &word) const;
   void check_alike(const GasFile &file, const GasFile &first) const;

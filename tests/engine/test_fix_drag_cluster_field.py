@@ -519,3 +519,24 @@ def test_one_spacing_beyond_the_field_is_covered(tmp_path):
     assert (
         np.abs(row[U] - linear(*np.clip([row["x"], 0 * row["x"], row["z"]], centres[0], centres[-1]))[0]).max() < 1e-13
     )
+
+
+@pytest.mark.parametrize("np_", (1, 2))
+@pytest.mark.parametrize(
+    "times, said",
+    [
+        ((1e-5, 2e-5), ("time 0 of the run is before the series, which goes from 1e-05 to 2e-05: its first frame holds",)),
+        ((0.0, 2e-5), ("is after the series, which goes from 0 to 2e-05: its last frame holds",)),
+        ((1e-5, 2e-5), ("is before the series", "is after the series")),
+        ((0.0, 4e-5), ()),
+    ],
+)
+def test_a_run_outside_of_the_series_is_told_once(tmp_path, times, said, np_):
+    for k, t in enumerate(times):
+        write_field(tmp_path / f"flow.{k}.vtk", ([0.0], FLAT, [0.0, L]), [0, 0, 1.0 + k], time=t)
+    script = head() + random_clusters(20) + pair() + "fix move all nve\n" + DRAG.format("../flow.*.vtk", "edge z clamp")
+    script += "timestep 1e-6\nrun 20\nrun 20\n"
+    output = " ".join(run(tmp_path / "run", script, np_).output.split())
+    for words in said:
+        assert output.count(words) == 1, output[-1500:]
+    assert output.count("of the run is") == (0 if not said else 1 if times[0] == 0.0 else 2)
