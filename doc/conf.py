@@ -30,7 +30,7 @@ include_patterns = [
     "*.md",
     "doc/**.md",
     "bench/*.md",
-    "python/README.md",
+    "python/*.md",
     "python/src/clusterdem/gas/README.md",
     "src/**.md",
     "src/CLUSTER/doc/*.rst",

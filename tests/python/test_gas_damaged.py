@@ -72,7 +72,7 @@ def too_large(folder):
         ("a.vtk", cut_in_array, "is cut short: U declares 567 values, but holds "),
         ("a.vtk", cut_in_points, "is cut short: POINTS declares 567 values, but holds "),
         ("a.vtk", cut_in_cells, "is cut short: CONNECTIVITY declares 768 values, but holds "),
-        ("a.vtu", cut_xml, "is damaged, or cut short: Error parsing XML"),
+        ("a.vtu", cut_xml, "VTK found no mesh in it: Error parsing XML"),
         ("a.vtu", point_that_is_not_there, "a cell has the point 99999999, but there are 4, from 0 on"),
         ("a.vti", too_large, "declares 1,000,030,000,300,001 points or cells, but holds "),
         ("a.xdmf", lambda _: b'<?xml version="1.0"?><Xdmf><Domain/></Xdmf>', "holds no grid"),

@@ -23,7 +23,8 @@ def keep(case: Path, target: Path) -> None:
         settings = name.parts[0] == "system" and path.name in ("controlDict", "fvSchemes")
         if path.is_file() and (mesh or settings or path.name in KEPT):
             (target / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(path, target / name)
+            data = path.read_bytes()  # collated files have the folder in their header, before what is counted in bytes
+            (target / name).write_bytes(data.replace(str(case).encode() + b"/", b"", 1))
 
 
 def main() -> None:

@@ -148,7 +148,8 @@ def _quietly(path: Path, work: Any) -> Any:
     if path.suffix.startswith((".vt", ".pvt")) and catcher.error_events:
         # VTK goes on with what it has, and leaves the rest as memory was
         said = str(catcher.error_events[0].alert).strip().splitlines()[0].strip()
-        raise InputError(path, f"is damaged, or cut short: {said}")
+        whole = getattr(done, "n_points", 0)  # none of a reader that is only made
+        raise InputError(path, f"{'is damaged, or cut short' if whole else 'VTK found no mesh in it'}: {said}")
     return done
 
 
