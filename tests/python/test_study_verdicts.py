@@ -289,6 +289,12 @@ def test_the_report_of_a_fit():
     assert "Runs that failed" not in text and "confirmed |" not in text
 
 
+def test_errors_of_observation_and_seeds_add_in_squares():
+    """0.1 and 0.24 make 0.26, 0.1 and 0.105 make 0.145; weights are even."""
+    scale = yardstick(fitted().study, np.array([0.24, 0.0, 0.105, 0.1]))
+    assert scale.errors == pytest.approx([0.26, 0.1, 0.145, 0.02**0.5]) and scale.weights == pytest.approx([1] * 4)
+
+
 def test_confirmed_points_stand_beside_the_fit():
     text = calibrate_report(fitted(confirmed=True), Model())
     assert "| case | target | observed | the fit, in the search | the fit, confirmed | start A, confirmed |" in text
