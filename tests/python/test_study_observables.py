@@ -209,6 +209,12 @@ def test_an_expression(value, expected, columns, of_run):
     assert own(FRAME, How()).tolist() == pytest.approx([expected])
 
 
+def test_what_a_study_says_of_its_observable():
+    plain, own = expression("own", "mean(vz)"), expression("own", "mean(vz)", "v up", "m/s", False)
+    assert (plain.name, plain.label, plain.unit, plain.relative) == ("own", "own", "", True)
+    assert (own.name, own.label, own.unit, own.relative, own.source) == ("own", "v up", "m/s", False, "mean(vz)")
+
+
 def test_an_expression_of_no_clusters():
     assert expression("own", "sum(mass)")(EMPTY, How()).tolist() == [0.0]
     assert np.isnan(expression("own", "mean(mass)")(EMPTY, How())).all()
