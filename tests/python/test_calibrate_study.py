@@ -209,6 +209,12 @@ def test_a_bound_counts_on_its_own_side(kind, number, apart):
     assert Target("size_classes", 1, 0, 30.0, kind).deviation(number) == apart
 
 
+def test_the_local_stage_runs_as_the_search_unless_it_says_otherwise(read):
+    searched = GOOD.replace("trials = 4", "variables = { height = 0.2 }\n[local]")
+    assert read(searched).local.variables == {"height": "0.2"} and read(searched).confirm.variables == {}
+    assert read(searched.replace("[local]", "[local]\nvariables = { height = 1 }")).local.variables == {"height": "1"}
+
+
 def test_errors_that_no_target_names(read):
     """Ten percent, or three points of a share, as the page says; of the paper's numbers too."""
     own = "[[case.target]]\ntime = 0.02\nvalue = 3\nquantity = "
