@@ -198,6 +198,35 @@ def test_deviations_are_ratios_or_points_and_bounds_are_one_sided():
     assert deviations(targets, np.array([200.0, 25.0, 6e-4, 6e-4])) == pytest.approx([np.log(2), -5, np.log(2), 0])
 
 
+@pytest.mark.parametrize(
+    "kind, number, apart",
+    [
+        ("value", 25.0, -5.0), ("value", 36.0, 6.0), ("below", 25.0, 0.0), ("below", 36.0, 6.0),
+        ("above", 25.0, -5.0), ("above", 36.0, 0.0),
+    ],
+)  # fmt: skip
+def test_a_bound_counts_on_its_own_side(kind, number, apart):
+    assert Target("size_classes", 1, 0, 30.0, kind).deviation(number) == apart
+
+
+def test_the_local_stage_runs_as_the_search_unless_it_says_otherwise(read):
+    searched = GOOD.replace("trials = 4", "variables = { height = 0.2 }\n[local]")
+    assert read(searched).local.variables == {"height": "0.2"} and read(searched).confirm.variables == {}
+    assert read(searched.replace("[local]", "[local]\nvariables = { height = 1 }")).local.variables == {"height": "1"}
+
+
+def test_errors_that_no_target_names(read):
+    """Ten percent, or three points of a share, as the page says; of the paper's numbers too."""
+    own = "[[case.target]]\ntime = 0.02\nvalue = 3\nquantity = "
+    text = GOOD.replace(
+        'published = "case1"', f'name = "mine"\n{own}"mean_diameter"\n{own}"size_classes"\npart = "<300"'
+    )
+    assert [target.error for target in read(text).cases[0].targets] == [0.1, 3.0]
+    assert {(t.quantity, t.error) for t in published_targets("case1")} == {
+        ("clusters", 0.1), ("mean_diameter", 0.1), ("size_classes", 3.0),
+    }  # fmt: skip
+
+
 def test_clusters_belong_to_the_whole_mass():
     """A tenth of the mass holds a tenth of the clusters: per mass they are as many."""
     targets = [Target("clusters", 0.02, 0, 100.0), Target("clusters", 0.03, 0, 100.0)]

@@ -14,6 +14,7 @@ from clusterdem.observables import REGISTRY, How, check_frame, find
 from clusterdem.studies.expression import expression
 from clusterdem.studies.runs import frames_of
 from fake_engine import fake_engine
+from synthetic import random_frame, write_dump
 
 NAMES = "id x y z vx vy vz diameter mass charge".split()
 TRADE = """
@@ -208,6 +209,12 @@ def test_an_expression(value, expected, columns, of_run):
     assert own(FRAME, How()).tolist() == pytest.approx([expected])
 
 
+def test_what_a_study_says_of_its_observable():
+    plain, own = expression("own", "mean(vz)"), expression("own", "mean(vz)", "v up", "m/s", False)
+    assert (plain.name, plain.label, plain.unit, plain.relative) == ("own", "own", "", True)
+    assert (own.name, own.label, own.unit, own.relative, own.source) == ("own", "v up", "m/s", False, "mean(vz)")
+
+
 def test_an_expression_of_no_clusters():
     assert expression("own", "sum(mass)")(EMPTY, How()).tolist() == [0.0]
     assert np.isnan(expression("own", "mean(mass)")(EMPTY, How())).all()
@@ -261,6 +268,18 @@ def test_what_a_frame_lacks_is_told(place, command):
     (place / "own.toml").write_text(TRADE.replace("vx**2", "vq**2"))
     code, _, err = command("trade", place / "own.toml", "--out", place / "out", "--lmp", place / "lmp")
     assert code == 2 and "no column 'vq', which observable 'speed' needs" in err and err.count("\n") == 1
+
+
+def test_the_frame_after_the_start_must_have_what_is_needed(tmp_path):
+    names = ["id", "x", "z", "mass", "diameter"]
+    write_dump(tmp_path / "own.0.dump", random_frame(9, 0, 0.0))
+    write_dump(tmp_path / "own.5.dump", random_frame(9, 5, 0.1), names)
+    REGISTRY["own"] = expression("own", "mean(vz)")
+    with pytest.raises(InputError, match="own.5.dump: no column 'vz', which observable 'own' needs"):
+        frames_of(Run(tmp_path), ["own"])
+    write_dump(tmp_path / "own.0.dump", random_frame(9, 0, 0.0), names)  # the start is not observed
+    write_dump(tmp_path / "own.5.dump", random_frame(9, 5, 0.1))
+    assert len(frames_of(Run(tmp_path), ["own"])) == 2
 
 
 def test_numbers_of_a_run(place, command):

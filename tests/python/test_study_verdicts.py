@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 from clusterdem import InputError
 from clusterdem.observables import How
-from clusterdem.studies.calibrate.fit import Confirmed, Fit
+from clusterdem.studies.calibrate.fit import Confirmed, Fit, jackknife
 from clusterdem.studies.calibrate.identify import Direction, Identified, in_words
 from clusterdem.studies.calibrate.local import Flip, Neighbourhood
 from clusterdem.studies.calibrate.parameters import Choice, Real
 from clusterdem.studies.calibrate.report import as_markdown as calibrate_report
-from clusterdem.studies.calibrate.score import yardstick
+from clusterdem.studies.calibrate.score import Yardstick, yardstick
 from clusterdem.studies.calibrate.search import Trial
-from clusterdem.studies.calibrate.study import Calibration, Case, Search
+from clusterdem.studies.calibrate.study import Calibration, Case, Confirm, Search
 from clusterdem.studies.calibrate.targets import Target
 from clusterdem.studies.engine import Engine
 from clusterdem.studies.runs import Cost, Failure, Setting, StudyRun
@@ -287,6 +287,29 @@ def test_the_report_of_a_fit():
     assert "| flow | largest d(0.02) | > 1000 µm | 2500 µm ± 7.1e+02 |" in text
     assert "| flow | dispersion(0.02) | 2 | none |" in text  # one of its seeds gave none
     assert "Runs that failed" not in text and "confirmed |" not in text
+
+
+def test_errors_of_observation_and_seeds_add_in_squares():
+    """0.1 and 0.24 make 0.26, 0.1 and 0.105 make 0.145; weights are even."""
+    scale = yardstick(fitted().study, np.array([0.24, 0.0, 0.105, 0.1]))
+    assert scale.errors == pytest.approx([0.26, 0.1, 0.145, 0.02**0.5]) and scale.weights == pytest.approx([1] * 4)
+
+
+def test_the_losss_error_is_the_jackknifes():
+    """Without squares to speak of the loss is r^2: seeds at 1, 2 and 6 hundredths of an error."""
+    scale = Yardstick((Target("size_classes", 1, 0, 30.0),), np.array([1.0]), np.array([1.0]))
+    samples = np.array([[30.01], [30.02], [30.06]])
+    left = np.array([(0.02 + 0.06) / 2, (0.01 + 0.06) / 2, (0.01 + 0.02) / 2]) ** 2  # loss without each seed
+    assert jackknife(scale, samples) == pytest.approx(np.sqrt(2 / 3 * ((left - left.mean()) ** 2).sum()), rel=1e-3)
+
+
+def test_the_command_of_the_fit_is_that_of_the_last_stage():
+    fit = fitted()
+    confirm = Confirm({"height": "0.6", "law": "y {c}"}, (1, 2), None)
+    fit.study = replace(fit.study, confirm=confirm)
+    assert "lmp -in case.in -var law 'y 0.5' -var height 0.6 -var K 0.1 -var begin gas\n" in calibrate_report(
+        fit, Model()
+    )
 
 
 def test_confirmed_points_stand_beside_the_fit():

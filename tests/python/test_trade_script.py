@@ -139,10 +139,18 @@ def test_a_key_does_not_depend_on_the_place(study, tmp_path):
 
 
 def test_the_command(study):
-    run = plan(replace(study, ranks=2), settings_of(study), ENGINE, Path("runs"), keeping_of(("clusters",)))[4]
-    text = " ".join(run.command)
-    assert text.startswith("mpirun -np 2 /opt/lmp -in ")
-    assert "-var contact md" in text and "-var seed 2" in text and "-var outdir ." in text
+    """The limit is that of the engine's own processes, not of what starts them."""
+    settings, keeping = settings_of(study), keeping_of(("clusters",))
+    run = plan(replace(study, ranks=2), settings, ENGINE, Path("runs"), keeping, limit=5)[4]
+    case = str(study.input)
+    assert run.command[:11] == (
+        "mpirun", "-np", "2", "prlimit", "--cpu=5:6", "--core=0", "/opt/lmp", "-in", case, "-log", "log.lammps",
+    )  # fmt: skip
+    pairs = list(zip(run.command[12::3], run.command[13::3]))
+    assert run.command[11::3] == ("-var",) * len(pairs)
+    assert {("contact", "md"), ("seed", "2"), ("inputs", str(study.input.parent)), ("outdir", ".")} <= set(pairs)
+    alone = plan(study, settings, ENGINE, Path("runs"), keeping)[4]
+    assert alone.command[:2] == ("/opt/lmp", "-in") and alone.launcher == () and alone.limit is None
 
 
 def test_a_variable_that_the_script_does_not_know(study):
