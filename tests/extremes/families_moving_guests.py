@@ -7,7 +7,7 @@ from draw import Draw
 from drawn_scene import EITHER, RHO_P, VOIDAGE, Clusters, Scene
 from families_events import GAS, empty
 from family import family
-from invariants import Frame
+from invariants import CLUSTERS_FED, Frame
 from start_states import diameter, lattice
 
 STEPS, FRAMES, DT = 40, 4, 1e-12
@@ -32,7 +32,7 @@ def nobody_in_a_body(d: float, travel: float):
 
 def at_least_fed(count: int):
     def check(scene, frames: list[Frame], run) -> str:
-        fed = run.table()[-1, 27]
+        fed = run.table()[-1, CLUSTERS_FED]
         return "" if fed >= count else f"{fed:.0f} clusters were poured in, {count} at least were to be"
 
     return check
@@ -41,14 +41,15 @@ def at_least_fed(count: int):
 @family(
     "moving guests",
     24,
-    4,
+    2,
     "up to 150 clusters that break into threes to hundreds, and merge, while fix pour lets in two sizes of clusters from "
     "above, in two runs, or bodies 1.5 to 3 times the largest cluster, that belong to no fix of ours, move towards them; np 1, 2, 4",
     "particles with what was fed; nobody in a body but by its own way",
 )
 def moving_guests(draw: Draw) -> Scene:
     d_p = draw.particle()
-    each = draw.whole(60, 2000)
+    poured = draw.index % 2 == 0
+    each = draw.whole(60, 300 if poured else 2000)
     d, largest = float(diameter(d_p, each)), float(diameter(d_p, 2000))
     columns = draw.whole(6, 12)
     x, length, width = lattice(columns, columns, draw.uniform(1.01, 3.0) * d, 2.0 * d)
@@ -60,7 +61,7 @@ def moving_guests(draw: Draw) -> Scene:
     scene.dt, scene.steps, scene.frames, scene.every = DT, STEPS, FRAMES, draw.one_of([1, 5])
     scene.np_ = draw.one_of([1, 2, 4])
     scene.expect, scene.refusals = EITHER, ("thin rank",)
-    if draw.index % 2 == 0:
+    if poured:
         add_pour(draw, scene, d, largest)
     else:
         add_bodies(draw, scene, d, largest)
@@ -71,13 +72,13 @@ def add_pour(draw: Draw, scene: Scene, d: float, largest: float) -> None:
     """Once at the first step of each run: at this step the fall from the region takes longer than the run."""
     scene.open, scene.boundary = True, "p p f"
     floor = scene.box[2]
-    scene.box = (*scene.box[:2], floor + 8.0 * largest)
-    other = float(diameter(scene.d_p, draw.whole(20, 2000)))
+    scene.box = (*scene.box[:2], floor + 5.0 * largest)
+    other = float(diameter(scene.d_p, draw.whole(20, 300)))
     density = RHO_P * (1.0 - VOIDAGE)
-    region = f"0 {scene.box[0]!r} 0 {scene.box[1]!r} {floor + largest!r} {floor + 7.0 * largest!r}"
+    region = f"0 {scene.box[0]!r} 0 {scene.box[1]!r} {floor + largest!r} {floor + 4.0 * largest!r}"
     scene.before = f"region hopper block {region}\nfix fall all gravity 9.81 vector 0 0 -1"
     pour = (
-        f"pour 1000 1 {{}} region hopper vol {draw.uniform(0.02, 0.2)!r} 50 diam poly 2 {d!r} 0.3 {other!r} 0.7 "
+        f"pour 1000 1 {{}} region hopper vol {draw.uniform(0.003, 0.02)!r} 50 diam poly 2 {d!r} 0.3 {other!r} 0.7 "
         f"dens {density!r} {density!r}"
     )
     first, second = (pour.format(draw.whole(1, 99999)) for _ in range(2))
