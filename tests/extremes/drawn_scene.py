@@ -76,6 +76,8 @@ class Scene:
     types: int = 1  # of atoms
     widest: float = 0.0  # diameter of the largest atom that is no cluster
     extra: str = ""  # more commands before run
+    resumed_np: int = 0  # ranks that take up the second half from a restart file; 0: one run of all steps
+    extra_again: str = ""  # in place of `extra` after the restart
     # ---- what must hold
     expect: str = HELD
     refusals: tuple[str, ...] = ()  # names in outcomes.REFUSALS that are right for this scene
@@ -140,7 +142,8 @@ class Scene:
         """A scene may give the keyword itself."""
         return "" if "limits" in self.size else f"limits {self.limits[0]} {self.limits[1]}"
 
-    def script(self) -> str:
+    def script(self, again: bool = False) -> str:
+        """All steps; if the scene is resumed the first half, or (again) the second."""
         largest = max(float(self.diameter(max([self.limits[1], *self.clusters.n]))), self.widest)
         c = self.contact
         ghost = f" cutoff {self.ghost()!r}" if self.ghost() else ""
@@ -159,18 +162,17 @@ class Scene:
         columns += " omegax omegay omegaz" if self.rotates else ""
         columns += " f_size[1] f_size[3]" if self.size else ""
         columns += " f_drag[8]" if self.gas else ""
+        begin = ["units si", f"atom_style {self.atom_style}", f"boundary {self.boundary}"]
         lines = [
-            "units si",
-            f"atom_style {self.atom_style}",
+            *([] if again else begin),
             "atom_modify map hash sort 0 0",
-            f"boundary {self.boundary}",
             f"comm_modify vel yes{ghost}",
+            "read_restart half.restart" if again else "read_data start.data",
             f"neighbor {self.skin()!r} bin",
             "neigh_modify every 1 delay 0 check yes",
-            "read_data start.data",
             pair,
         ]
-        if self.before:
+        if self.before and not again:
             lines.append(self.before)
         if self.control:
             lines.append(f"fix step all cluster/timestep {self.control}")
@@ -186,14 +188,18 @@ class Scene:
                 f"{self.limit_words()}{claim}",
                 f'fix table all ave/time 1 1 {every} f_size[*] mode scalar file out.txt format " %.17g"',
             ]
-        if self.extra:
-            lines.append(self.extra)
+        lines.append(f"timestep {self.dt!r}")
+        if extra := self.extra_again if again else self.extra:
+            lines.append(extra)
         lines += [
-            f"timestep {self.dt!r}",
             f"dump frames {self.group} custom {every} frames.dump {columns}",
-            "dump_modify frames sort id format float %.17g",
+            f"dump_modify frames sort id format float %.17g{' append yes' if again else ''}",
             f"thermo {every}",
-            f"run {self.steps}",
+        ]
+        if self.resumed_np and not again:
+            return "\n".join([*lines, f"run {self.steps // 2}", "write_restart half.restart"]) + "\n"
+        lines += [
+            f"run {self.steps - self.steps // 2 if again else self.steps}",
             f"write_dump {self.group} custom end.dump {columns} modify sort id format float %.17g",
         ]
         return "\n".join(lines) + "\n"

@@ -108,10 +108,12 @@ def guests(draw: Draw) -> Scene:
         )
     elif kind == 1:
         scene.open = True
-        scene.extra = "timestep 1e-12\nrun 20\nregion corner block INF {!r} INF INF INF INF\ndelete_atoms region corner compress {}\n{}".format(
-            scene.box[0] * draw.uniform(0.05, 0.6),
-            draw.one_of(["yes", "no"]),
-            draw.one_of(["", "reset_atoms id", "reset_atoms id sort yes"]),
+        scene.extra = (
+            "run 20\nregion corner block INF {!r} INF INF INF INF\ndelete_atoms region corner compress {}\n{}".format(
+                scene.box[0] * draw.uniform(0.05, 0.6),
+                draw.one_of(["yes", "no"]),
+                draw.one_of(["", "reset_atoms id", "reset_atoms id sort yes"]),
+            )
         )
     elif kind == 2:
         body = largest * draw.uniform(1.5, 3.0)
@@ -147,5 +149,5 @@ def guests(draw: Draw) -> Scene:
         scene.extra = COLUMNS
         scene.more = (no_pieces_overlap, sums_stay, copies_are_of_the_start)
     else:
-        scene.extra = f"timestep {scene.dt!r}\nrun 20\nreset_atoms id\nrun 10\nwrite_data half.data"
+        scene.extra = "run 20\nreset_atoms id\nrun 10\nwrite_data half.data"
     return scene

@@ -55,6 +55,8 @@ def ran(scene: Scene, folder: Path) -> Outcome:
         (folder / name).write_text(text)
     try:
         result = run(folder, scene.script(), scene.np_, check=False, timeout=scene.time_limit)
+        if scene.resumed_np and result.code == 0:
+            result = run(folder, scene.script(again=True), scene.resumed_np, check=False, timeout=scene.time_limit)
     except subprocess.TimeoutExpired:
         return Outcome("failed", f"not finished after {scene.time_limit} s")
     except AssertionError as finding:  # of a sanitizer (./run sanitize), whatever the scene expects

@@ -34,12 +34,14 @@ SCENE = (
         (3, (0.010, 0.030), (0.1, 0.0)),
     )
     + pair()
-    + "variable u equal 0.5\nvariable w atom 2+x\nvariable bad equal 1/0\nfix move all nve\ntimestep 1e-6\n"
+    + "variable u equal 0.5\nvariable w atom 2+x\nvariable bad equal 1/0\nregion room block 0 0.039 INF INF 0 0.039\n"
+    + "fix held all property/atom d_own i_mark\nfix move all nve\ntimestep 1e-6\n"
 )
 
 # an error found when a run begins names who found it, and a cause that is not of one word
 AT_RUN_TIME = (
     "Fix drag/cluster drag",
+    "Fix drag/cluster: ",  # of two keywords that do not go together
     "Fix cluster/breakmerge size",
     "Fix cluster/timestep step",
     "Fix nve/cluster move",
@@ -57,6 +59,7 @@ def server(tmp_path_factory):
     x = np.array([0.0, 0.01, 0.02, 0.03])
     for name, time in (("gas.vtk", None), ("gas.0.vtk", 0.0), ("gas.1.vtk", 1.0)):
         write_field(folder / name, (x, x[:1], x), [0, 0, 2], time=time)
+    write_field(folder / "eddies.vtk", (x, x[:1], x), [0, 0, 2], period=1e-6, eddy_size=1e-3)
     server = Server(folder, SCENE)
     yield server
     server.close()
