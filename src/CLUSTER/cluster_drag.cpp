@@ -81,10 +81,10 @@ void ClusterDrag::parse_pressure(StyleArguments &args)
 }
 
 // the table is of one voidage
-void ClusterDrag::settle(bool table_of_law, ClusterTable &table)
+void ClusterDrag::settle(bool table_of_law, ClusterTable &table, const std::string &me)
 {
   if (pressure && !dynamic_cast<const VoidageLaw *>(law.get()))
-    error->all(FLERR, "Fix drag/cluster: pressure yes needs a law with a voidage, which law {} has not", name);
+    error->all(FLERR, "{}: pressure yes needs a law with a voidage, which law {} has not", me, name);
   local.add_columns(table);
   if (table_of_law && !local.any()) law = std::make_unique<DragTable>(std::move(law));
 }

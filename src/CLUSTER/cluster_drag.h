@@ -27,7 +27,7 @@ class ClusterDrag : protected EnginePointers {
   void parse_particle(StyleArguments &);
   void parse_unshielded(StyleArguments &);
   void parse_pressure(StyleArguments &);
-  void settle(bool table_of_law, ClusterTable &);    // once all words are read
+  void settle(bool table_of_law, ClusterTable &, const std::string &me);    // once all words are read
   void init(const std::string &me, class Fix *owner);
   LocalVoidage &voidage() { return local; }
 

@@ -77,8 +77,9 @@ void FixDragCluster::parse(StyleArguments &args)
     else if (keyword == "refresh") refresh = args.integer("refresh", 1);
     else args.unknown_keyword();
   }
-  drag.settle(table_of_law, table);
-  gas.settle(table, igroup);
+  const std::string me = fmt::format("Fix {} {}", style, id);
+  drag.settle(table_of_law, table, me);
+  gas.settle(table, igroup, me);
   held.hold_for(refresh, table);
   held.act_along(drag.in_plane({1.0, 1.0, 1.0}));
 }

@@ -89,13 +89,12 @@ void PrescribedGas::parse_field(StyleArguments &args, const std::string &fix)
 
 /* ---------------------------------------------------------------------- */
 
-void PrescribedGas::settle(ClusterTable &table, int group)
+void PrescribedGas::settle(ClusterTable &table, int group, const std::string &fix)
 {
   igroup = group;
   if (fluctuation.of_eddies() && !(frames && frames->has(GasFile::PERIOD)))
     error->all(FLERR,
-               "Fix drag/cluster: fluctuation PERIOD field needs the keyword field, with an array {} [time] in "
-               "its file",
+               "{}: fluctuation PERIOD field needs the keyword field, with an array {} [time] in its file", fix,
                GasFile::name(GasFile::PERIOD));
   if (frames) {
     if (!fluctuation.any()) frames->leave_out(GasFile::FLUCTUATION);

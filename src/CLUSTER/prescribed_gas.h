@@ -35,7 +35,7 @@ class PrescribedGas : protected EnginePointers {
   void parse_field(StyleArguments &, const std::string &me);
   MeanVelocity &mean_velocity() { return mean; }
   GasFluctuation &gusts() { return fluctuation; }
-  void settle(ClusterTable &, int igroup);    // once all words are read
+  void settle(ClusterTable &, int igroup, const std::string &me);    // once all words are read
 
   void init(const std::string &me);
 

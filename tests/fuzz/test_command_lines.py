@@ -41,7 +41,6 @@ SCENE = (
 # an error found when a run begins names who found it, and a cause that is not of one word
 AT_RUN_TIME = (
     "Fix drag/cluster drag",
-    "Fix drag/cluster: ",  # of two keywords that do not go together
     "Fix cluster/breakmerge size",
     "Fix cluster/timestep step",
     "Fix nve/cluster move",
