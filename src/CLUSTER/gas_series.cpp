@@ -164,13 +164,14 @@ void GasSeries::warn_outside(double t)
 {
   if (times.size() < 2 || period > 0.0) return;
   const double rounding = 1.0e-6 * (times.back() - times.front());
-  const bool before = t < times.front() - rounding, after = t > times.back() + rounding;
+  const bool before = t<times.front() - rounding, after = t> times.back() + rounding;
   bool &told = before ? told_before : told_after;
   if (!(before || after) || told) return;
   told = true;
   if (comm->me == 0)
-    error->warning(FLERR,
-                   "{}: time {:.6g} of the run is {} the series, which goes from {:.6g} to {:.6g}: its {} frame holds. Give "
-                   "the run or the series another start, or the keyword loop",
-                   me, t, before ? "before" : "after", times.front(), times.back(), before ? "first" : "last");
+    error->warning(
+        FLERR,
+        "{}: time {:.6g} of the run is {} the series, which goes from {:.6g} to {:.6g}: its {} frame holds. Give "
+        "the run or the series another start, or the keyword loop",
+        me, t, before ? "before" : "after", times.front(), times.back(), before ? "first" : "last");
 }

@@ -93,9 +93,8 @@ void PrescribedGas::settle(ClusterTable &table, int group, const std::string &fi
 {
   igroup = group;
   if (fluctuation.of_eddies() && !(frames && frames->has(GasFile::PERIOD)))
-    error->all(FLERR,
-               "{}: fluctuation PERIOD field needs the keyword field, with an array {} [time] in its file", fix,
-               GasFile::name(GasFile::PERIOD));
+    error->all(FLERR, "{}: fluctuation PERIOD field needs the keyword field, with an array {} [time] in its file",
+               fix, GasFile::name(GasFile::PERIOD));
   if (frames) {
     if (!fluctuation.any()) frames->leave_out(GasFile::FLUCTUATION);
     if (!fluctuation.of_eddies())

@@ -195,7 +195,10 @@ def test_fragments_begin_eddies_of_their_own(tmp_path, np_):
         ("own often 3", "fluctuation PERIOD value: often (must be frozen, field or a time > 0)"),
         ("own frozen 3 stagger", "fluctuation option value: stagger (must be left out where PERIOD is frozen)"),
         ("own 1e-4 3 exponential", "fluctuation option value: exponential (must be left out unless PERIOD is field)"),
-        ("own field 3", "Fix drag/cluster drag: fluctuation PERIOD field needs the keyword field, with an array period [time] in its file"),
+        (
+            "own field 3",
+            "Fix drag/cluster drag: fluctuation PERIOD field needs the keyword field, with an array period [time] in its file",
+        ),
     ],
 )
 def test_bad_words(tmp_path, gusts, said):

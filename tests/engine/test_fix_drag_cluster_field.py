@@ -525,7 +525,10 @@ def test_one_spacing_beyond_the_field_is_covered(tmp_path):
 @pytest.mark.parametrize(
     "times, said",
     [
-        ((1e-5, 2e-5), ("time 0 of the run is before the series, which goes from 1e-05 to 2e-05: its first frame holds",)),
+        (
+            (1e-5, 2e-5),
+            ("time 0 of the run is before the series, which goes from 1e-05 to 2e-05: its first frame holds",),
+        ),
         ((0.0, 2e-5), ("is after the series, which goes from 0 to 2e-05: its last frame holds",)),
         ((1e-5, 2e-5), ("is before the series", "is after the series")),
         ((0.0, 4e-5), ()),

@@ -138,7 +138,10 @@ def test_the_last_law_holds(tmp_path):
         ("wen/yu cells 1000 1000 1000", "law cells value: 1000 (must be at most 100000000 cells in all)"),
         ("gidaspow cells 3 1", "missing law cells"),
         ("difelice 1.5", "law difelice voidage value: 1.5 (must be a number > 0 and <= 1, or cells nx ny nz)"),
-        ("stokes pressure yes", "Fix drag/cluster drag: pressure yes needs a law with a voidage, which law stokes has not"),
+        (
+            "stokes pressure yes",
+            "Fix drag/cluster drag: pressure yes needs a law with a voidage, which law stokes has not",
+        ),
         ("trancong 0.8 cells", "law trancong dA/dn value: cells (must be a number > 0 and <= 10)"),
     ],
 )
