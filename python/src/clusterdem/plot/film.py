@@ -19,7 +19,7 @@ from ..errors import InputError
 from ..frame import Frame
 from ..io.output import atomic
 from .scatter import Colouring, colour_bar, draw_discs, whole
-from .style import new_figure, styled
+from .style import counted, new_figure, styled
 
 Picture = NDArray[np.uint8]
 
@@ -65,7 +65,7 @@ def picture(frame: Frame, grid: Grid, scales: Scales, method: str, dpi: int) -> 
         beside = "" if scales.published is None else f"; paper's scale: ×{scales.published:g}"
         words = f"\nwith {frame.particles.words}" if len(frame) else ""
         bar.set_label(f"true solids fraction (%){beside}{words}", fontsize=6)
-        figure.suptitle(f"{frame.label}    {len(frame):,} clusters")
+        figure.suptitle(f"{frame.label}    {counted(len(frame), 'cluster')}")
         figure.set_dpi(dpi)
         canvas = figure.canvas
         assert isinstance(canvas, FigureCanvasAgg)

@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from matplotlib.colors import Normalize, TwoSlopeNorm
+from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
 
 from ..analysis.grid import Grid
 from ..frame import Floats
-from .style import WIDTH, new_figure, styled
+from .panels import BAR, bar_ticks, label_ends, panels_for, write_ticks
+from .style import styled
 
 MOST_PANELS = 6
 
@@ -71,7 +71,8 @@ def _scale(values: Floats, field: Field) -> tuple[Normalize, str]:
     if field.clipped:  # rare cells must not wash out the rest
         low, high = (float(v) for v in np.percentile(known, (0.25, 99.75)))
     if field.diverging and low < -0.02 * high and high > -0.02 * low:
-        return TwoSlopeNorm(0.0, low, high), "RdBu_r"
+        most = max(-low, high)  # symmetric: equal speeds both ways have equally strong colours
+        return Normalize(-most, most), "RdBu_r"
     if field.from_zero and low >= 0:
         low = 0.0
     return Normalize(low, high if high > low else low + 1.0), field.colours
@@ -109,45 +110,50 @@ def draw_maps(
     stack = np.stack([np.asarray(m) for m in maps]) * field.factor
     norm, colours = _scale(stack, field)
     (lx, lz), (first, second) = grid.sides, grid.edges
+    both = field.name == "fraction" and scale is not None
     with styled():
-        panel = min((WIDTH - 1.75) / max(len(maps), 2), 1.6)
-        width = 1.75 + panel * len(maps)
-        figure = new_figure(width, min(max(panel * lz / lx + 0.65, 2.0), 8.5), layout="compressed")
-        axes = figure.subplots(1, len(maps), sharex=True, sharey=True, squeeze=False)[0]
+        panels = panels_for(len(maps), lx, lz, BAR + (0.75 if both else 0.0))
+        figure = panels.figure
         image: Any = None
-        for axis, values, label in zip(axes, stack, labels):
+        for axis, values, label in zip(panels.axes, stack, labels):
             image = axis.pcolormesh(1e3 * first, 1e3 * second, values.T, norm=norm, cmap=colours, rasterized=True)
-            axis.set_aspect("equal")
             axis.set_title(label)
-            axis.set_xlabel(f"{grid.plane[0]} (mm)")
-            axis.tick_params(direction="out", length=2.5)
-            axis.set_xticks([1e3 * (grid.corner[0] + part * lx) for part in (0, 0.5, 1)])
-            for side in ("top", "right"):
-                axis.spines[side].set_visible(True)
             axis.set_facecolor("0.85")
-        axes[0].set_ylabel(f"{grid.plane[1]} (mm)")
+            if not panels.horizontal:
+                label_ends(axis, 1e3 * grid.corner[0], 1e3 * (grid.corner[0] + lx))
+                axis.set_xlabel(f"{grid.plane[0]} (mm)")
+        if panels.horizontal:
+            panels.axes[-1].set_xlabel(f"{grid.plane[0]} (mm)")
+        panels.axes[0].set_ylabel(f"{grid.plane[1]} (mm)")
         over = bool(np.nanmax(stack, initial=-np.inf) > norm.vmax) if norm.vmax is not None else False
         under = bool(np.nanmin(stack, initial=np.inf) < norm.vmin) if norm.vmin is not None else False
         extend = {(False, False): "neither", (True, False): "max", (False, True): "min", (True, True): "both"}
-        bar = figure.colorbar(image, ax=list(axes), extend=extend[(over, under)], aspect=25, pad=0.02, fraction=0.06)
+        way = "horizontal" if panels.horizontal else "vertical"
+        bar = figure.colorbar(image, cax=panels.bar, extend=extend[(over, under)], orientation=way)
         bar.outline.set_linewidth(0.5)
+        assert norm.vmin is not None and norm.vmax is not None
+        write_ticks(bar, bar_ticks(norm.vmin, norm.vmax))
         note = f"with {words}" if field.name == "fraction" and words else field.note
         if note:
-            figure.supxlabel(note, fontsize=6)
-        if field.name == "fraction" and scale is not None:
-            bar.ax.yaxis.set_ticks_position("left")
-            right = bar.ax.secondary_yaxis(
-                "right", functions=(lambda v: scale * np.asarray(v), lambda v: np.asarray(v) / scale)
-            )
-            right.set_ylabel("solids volume fraction (%)")
-            for place, side, text in ((-0.3, "right", "true"), (1.3, "left", f"paper's\nscale, ×{scale:g}")):
-                bar.ax.text(place, 1.03, text, ha=side, va="bottom", fontsize=7, transform=bar.ax.transAxes)
+            figure.text(0.5, 0.06 / figure.get_size_inches()[1], note, fontsize=6, ha="center", va="bottom")
+        if both:
+            _second_scale(bar, scale, panels.horizontal)
         else:
             bar.set_label(field.label)
-        if (
-            isinstance(norm, TwoSlopeNorm) and norm.vmin is not None and norm.vmax is not None
-        ):  # its two sides have scales of their own
-            below, above = MaxNLocator(3).tick_values(norm.vmin, 0), MaxNLocator(5).tick_values(0, norm.vmax)
-            ticks = [float(t) for t in (*below[:-1], *above) if norm.vmin <= t <= norm.vmax]
-            bar.set_ticks(ticks, labels=[f"{t:g}".replace("-", "−") for t in ticks])
     return figure
+
+
+def _second_scale(bar: Any, scale: float, horizontal: bool) -> None:
+    """The published scale on the other side of the colour bar."""
+    there, back = (lambda v: scale * np.asarray(v)), (lambda v: np.asarray(v) / scale)
+    if horizontal:
+        other = bar.ax.secondary_xaxis("top", functions=(there, back))
+        bar.set_label("solids volume fraction (%)")
+        bar.ax.text(-0.02, 0.5, "true (below)", ha="right", va="center", fontsize=7, transform=bar.ax.transAxes)
+        bar.ax.text(1.02, 0.5, f"paper's scale,\n×{scale:g} (above)", ha="left", va="center", fontsize=7, transform=bar.ax.transAxes)
+    else:
+        bar.ax.yaxis.set_ticks_position("left")
+        other = bar.ax.secondary_yaxis("right", functions=(there, back))
+        other.set_ylabel("solids volume fraction (%)")
+        for place, side, text in ((-0.3, "right", "true"), (1.3, "left", f"paper's\nscale, ×{scale:g}")):
+            bar.ax.text(place, 1.03, text, ha=side, va="bottom", fontsize=7, transform=bar.ax.transAxes)

@@ -15,7 +15,8 @@ from matplotlib.patches import Rectangle
 
 from ..errors import InputError
 from ..frame import Floats, Frame
-from .style import new_figure, styled
+from .panels import label_ends, panels_for
+from .style import counted, styled
 
 ON_WHITE = ListedColormap(colormaps["viridis_r"](np.linspace(0.15, 1.0, 256)))
 """Viridis without its lightest end, which would vanish on white."""
@@ -38,7 +39,8 @@ def colouring_of(low: float, high: float, by: str) -> Colouring:
     """A colour scale for ``diameter``, ``vx``, ``vy``, ``vz`` or ``speed`` from low to high (µm or m/s)."""
     if not low <= high:  # no clusters
         low, high = 1.0, 10.0
-    high = high if high > low else low + 1e-3 * abs(low) + 1e-9
+    if not high - low > 1e-6 * abs(high):  # all alike: a scale about the one value
+        low, high = low - 0.05 * abs(low) - 1e-9, high + 0.05 * abs(high) + 1e-9
     if by == "diameter":
         return Colouring("cluster diameter (µm)", ON_WHITE, LogNorm(low, high))
     label = "speed (m/s)" if by == "speed" else f"$v_{by[1:]}$ (m/s)"
@@ -60,7 +62,10 @@ def round_ticks(norm: Normalize) -> list[float]:
 
 def colour_bar(figure: Figure, discs: Any, axes: Any, colours: Colouring) -> None:
     """The colour bar of discs."""
-    bar = figure.colorbar(discs, ax=axes, aspect=30, pad=0.02)
+    _label(figure.colorbar(discs, ax=axes, aspect=30, pad=0.02), colours)
+
+
+def _label(bar: Any, colours: Colouring) -> None:
     bar.set_label(colours.label)
     if isinstance(colours.norm, LogNorm):
         ticks = round_ticks(colours.norm)
@@ -115,11 +120,17 @@ def whole(frame: Frame, plane: str = "xz") -> Window:
     return (frame.box.lo[i], frame.box.hi[i], frame.box.lo[k], frame.box.hi[k])
 
 
-def middle_window(frame: Frame, share: float = 0.1, plane: str = "xz") -> Window:
-    """A window of the box's shape in its middle (m)."""
+def fullest_window(frame: Frame, share: float = 0.1, plane: str = "xz") -> Window:
+    """A window of the box's shape (m) where clusters are: in the middle, or where most are if the middle holds less than half as many."""
     x0, x1, z0, z1 = whole(frame, plane)
+    parts = round(1 / share)
+    count, first, second = np.histogram2d(frame[plane[0]], frame[plane[1]], (parts, parts), ((x0, x1), (z0, z1)))
     x, z, w, h = (x0 + x1) / 2, (z0 + z1) / 2, share * (x1 - x0) / 2, share * (z1 - z0) / 2
-    return (x - w, x + w, z - h, z + h)
+    middle = np.sum((np.abs(frame[plane[0]] - x) <= w) & (np.abs(frame[plane[1]] - z) <= h))
+    i, k = np.unravel_index(np.argmax(count), count.shape)
+    if 2 * middle >= count[i, k]:
+        return (x - w, x + w, z - h, z + h)
+    return (float(first[i]), float(first[i + 1]), float(second[k]), float(second[k + 1]))
 
 
 def draw_scatter(frame: Frame, by: str = "diameter", window: Window | None = None, plane: str = "xz") -> Figure:
@@ -132,17 +143,17 @@ def draw_scatter(frame: Frame, by: str = "diameter", window: Window | None = Non
     by : str
         ``diameter``, ``vx``, ``vy``, ``vz`` or ``speed``.
     window : (x0, x1, z0, z1), optional
-        The window (m); the middle of the box by default.
+        The window (m); by default one in the middle of the box, or where most clusters are.
     plane : str
         The two axes that are drawn.
     """
-    window = window or middle_window(frame, plane=plane)
+    window = window or fullest_window(frame, plane=plane)
     values = quantity(frame, by)
     colours = colouring_of(float(values.min(initial=np.inf)), float(values.max(initial=-np.inf)), by)
     lx, lz = (frame.box.lengths["xyz".index(axis)] for axis in plane)
     with styled():
-        figure = new_figure(6.2, min(max(2.45 * lz / lx + 0.7, 2.5), 8.0), layout="compressed")
-        left, right = figure.subplots(1, 2)
+        panels = panels_for(2, lx, lz, apart=0.4)
+        left, right = panels.axes
         draw_discs(left, frame, colours, by, whole(frame, plane), plane)
         discs = draw_discs(right, frame, colours, by, window, plane)
         x0, x1, z0, z1 = (1e3 * edge for edge in window)
@@ -150,7 +161,11 @@ def draw_scatter(frame: Frame, by: str = "diameter", window: Window | None = Non
         for spine in right.spines.values():
             spine.set_edgecolor("#D55E00")
         left.set_ylabel(f"{plane[1]} (mm)")
-        left.set_title(f"{frame.label}, {len(frame):,} clusters")
-        right.set_title("the window, true sizes")
-        colour_bar(figure, discs, [left, right], colours)
-    return figure
+        between = "\n" if lz > lx else ", "
+        left.set_title(f"{frame.label}{between}{counted(len(frame), 'cluster')}")
+        right.set_title(f"the window,{' ' if between == ', ' else between}true sizes")
+        if not panels.horizontal:
+            label_ends(left, *left.get_xlim())
+            label_ends(right, *right.get_xlim())
+        _label(panels.figure.colorbar(discs, cax=panels.bar, orientation="horizontal" if panels.horizontal else "vertical"), colours)
+    return panels.figure

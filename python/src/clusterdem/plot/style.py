@@ -40,11 +40,16 @@ def styled() -> Any:
     return rc_context(RC)
 
 
-def new_figure(width: float, height: float, layout: Literal["constrained", "compressed"] = "constrained") -> Figure:
+def new_figure(width: float, height: float, layout: Literal["constrained", "compressed"] | None = "constrained") -> Figure:
     """An empty figure (inch) with its own canvas; no global state."""
     figure = Figure(figsize=(width, height), layout=layout)
     FigureCanvasAgg(figure)
     return figure
+
+
+def counted(count: int, noun: str) -> str:
+    """A number and what it counts: ``1 cluster``, ``4,000 clusters``."""
+    return f"{count:,} {noun}{'' if count == 1 else 's'}"
 
 
 def save(figure: Figure, path: str | Path, dpi: float | None = None) -> Path:
