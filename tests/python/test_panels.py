@@ -4,15 +4,21 @@ import itertools
 
 import numpy as np
 import pytest
-from matplotlib.text import Text
-
 from clusterdem.analysis.grid import Grid
 from clusterdem.frame import Box, Frame
 from clusterdem.plot.maps import draw_maps, fields_of
 from clusterdem.plot.panels import bar_ticks
 from clusterdem.plot.scatter import draw_scatter, fullest_window
+from matplotlib.text import Text
 
-SHAPES = {"tall": (0.15, 6.0), "flat": (3.0, 0.15), "square": (0.3, 0.3), "the paper's": (0.3, 0.6), "40 wide": (4.0, 0.1), "40 tall": (0.1, 4.0)}
+SHAPES = {
+    "tall": (0.15, 6.0),
+    "flat": (3.0, 0.15),
+    "square": (0.3, 0.3),
+    "the paper's": (0.3, 0.6),
+    "40 wide": (4.0, 0.1),
+    "40 tall": (0.1, 4.0),
+}
 FIELDS = {field.name: field for field in fields_of("xz")}
 
 
@@ -37,7 +43,9 @@ def texts_that_meet(figure):
     # tick labels beyond the ends of their axis exist but are not drawn
     boxes = [(t.get_text(), t.get_window_extent(renderer).padded(-1)) for t in found if _drawn(t)]
     meet = [(a, b) for (a, p), (b, q) in itertools.combinations(boxes, 2) if a != b and p.overlaps(q)]
-    out = [a for a, p in boxes if p.x0 < whole.x0 - 1 or p.y0 < whole.y0 - 1 or p.x1 > whole.x1 + 1 or p.y1 > whole.y1 + 1]
+    out = [
+        a for a, p in boxes if p.x0 < whole.x0 - 1 or p.y0 < whole.y0 - 1 or p.x1 > whole.x1 + 1 or p.y1 > whole.y1 + 1
+    ]
     return meet, out
 
 
@@ -52,12 +60,16 @@ def _drawn(text):
 
 @pytest.mark.parametrize("count", [1, 2, 6])
 @pytest.mark.parametrize("shape", SHAPES)
-@pytest.mark.parametrize("name, scale", [("fraction", None), ("fraction", 10.0), ("velocity_z", None), ("mean_diameter", None)])
+@pytest.mark.parametrize(
+    "name, scale", [("fraction", None), ("fraction", 10.0), ("velocity_z", None), ("mean_diameter", None)]
+)
 def test_maps_of_any_shape(shape, name, scale, count):
     grid = Grid(box_of(shape), 12, 12, "xz")
     rng = np.random.default_rng(1)
     maps = [rng.uniform(0.001, 0.02, (12, 12)) - (0.004 if name == "velocity_z" else 0) for _ in range(count)]
-    figure = draw_maps(maps, [f"t = {0.0125 * k:g} s" for k in range(count)], grid, FIELDS[name], scale, "primary particles of 100 µm")
+    figure = draw_maps(
+        maps, [f"t = {0.0125 * k:g} s" for k in range(count)], grid, FIELDS[name], scale, "primary particles of 100 µm"
+    )
     assert texts_that_meet(figure) == ([], [])
     panels, bar = figure.axes[:count], figure.axes[count]
     lx, lz = SHAPES[shape]

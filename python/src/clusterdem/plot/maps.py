@@ -110,9 +110,9 @@ def draw_maps(
     stack = np.stack([np.asarray(m) for m in maps]) * field.factor
     norm, colours = _scale(stack, field)
     (lx, lz), (first, second) = grid.sides, grid.edges
-    both = field.name == "fraction" and scale is not None
+    published = scale if field.name == "fraction" else None
     with styled():
-        panels = panels_for(len(maps), lx, lz, BAR + (0.75 if both else 0.0))
+        panels = panels_for(len(maps), lx, lz, BAR + (0.75 if published is not None else 0.0))
         figure = panels.figure
         image: Any = None
         for axis, values, label in zip(panels.axes, stack, labels):
@@ -136,8 +136,8 @@ def draw_maps(
         note = f"with {words}" if field.name == "fraction" and words else field.note
         if note:
             figure.text(0.5, 0.06 / figure.get_size_inches()[1], note, fontsize=6, ha="center", va="bottom")
-        if both:
-            _second_scale(bar, scale, panels.horizontal)
+        if published is not None:
+            _second_scale(bar, published, panels.horizontal)
         else:
             bar.set_label(field.label)
     return figure
@@ -150,7 +150,15 @@ def _second_scale(bar: Any, scale: float, horizontal: bool) -> None:
         other = bar.ax.secondary_xaxis("top", functions=(there, back))
         bar.set_label("solids volume fraction (%)")
         bar.ax.text(-0.02, 0.5, "true (below)", ha="right", va="center", fontsize=7, transform=bar.ax.transAxes)
-        bar.ax.text(1.02, 0.5, f"paper's scale,\n×{scale:g} (above)", ha="left", va="center", fontsize=7, transform=bar.ax.transAxes)
+        bar.ax.text(
+            1.02,
+            0.5,
+            f"paper's scale,\n×{scale:g} (above)",
+            ha="left",
+            va="center",
+            fontsize=7,
+            transform=bar.ax.transAxes,
+        )
     else:
         bar.ax.yaxis.set_ticks_position("left")
         other = bar.ax.secondary_yaxis("right", functions=(there, back))

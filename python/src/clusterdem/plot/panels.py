@@ -75,7 +75,13 @@ def _columns(count: int, lx: float, lz: float, room: float, gap: float, own: boo
     bottom = BOTTOM + (tall - height) / 2
     axes = [_axes(figure, LEFT + k * slot + (slot - gap - width) / 2, bottom, width, height) for k in range(count)]
     # more room than usual is for labels on the left of the bar
-    bar = _axes(figure, LEFT + count * slot + 0.05 + max(room - BAR - 0.25, 0.0), BOTTOM + (tall - bar_height) / 2, 0.11, bar_height)
+    bar = _axes(
+        figure,
+        LEFT + count * slot + 0.05 + max(room - BAR - 0.25, 0.0),
+        BOTTOM + (tall - bar_height) / 2,
+        0.11,
+        bar_height,
+    )
     _ticks(axes, width, height)
     if not own:
         for axis in axes[1:]:
@@ -114,12 +120,14 @@ def _ticks(axes: Sequence[Axes], width: float, height: float) -> None:
 
 def label_ends(axis: Axes, low: float, high: float) -> None:
     """Only the ends of the lower axis, their labels turned away from each other where the panel is narrow."""
-    width = axis.get_position().width * axis.figure.get_size_inches()[0]
+    figure = axis.get_figure(root=True)
+    assert figure is not None
+    width = axis.get_position().width * figure.get_size_inches()[0]
     axis.set_xticks([low, high])
     labels = axis.get_xticklabels()
     outward = width < 0.6
-    for label, side in zip(labels, ("right", "left") if outward else ("left", "right")):
-        label.set_horizontalalignment(side)
+    labels[0].set_horizontalalignment("right" if outward else "left")
+    labels[1].set_horizontalalignment("left" if outward else "right")
 
 
 def bar_ticks(low: float, high: float, most: int = 6) -> list[float]:

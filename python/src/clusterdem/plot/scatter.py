@@ -167,5 +167,10 @@ def draw_scatter(frame: Frame, by: str = "diameter", window: Window | None = Non
         if not panels.horizontal:
             label_ends(left, *left.get_xlim())
             label_ends(right, *right.get_xlim())
-        _label(panels.figure.colorbar(discs, cax=panels.bar, orientation="horizontal" if panels.horizontal else "vertical"), colours)
+        _label(
+            panels.figure.colorbar(
+                discs, cax=panels.bar, orientation="horizontal" if panels.horizontal else "vertical"
+            ),
+            colours,
+        )
     return panels.figure

@@ -40,7 +40,9 @@ def styled() -> Any:
     return rc_context(RC)
 
 
-def new_figure(width: float, height: float, layout: Literal["constrained", "compressed"] | None = "constrained") -> Figure:
+def new_figure(
+    width: float, height: float, layout: Literal["constrained", "compressed"] | None = "constrained"
+) -> Figure:
     """An empty figure (inch) with its own canvas; no global state."""
     figure = Figure(figsize=(width, height), layout=layout)
     FigureCanvasAgg(figure)

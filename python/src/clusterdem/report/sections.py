@@ -19,8 +19,8 @@ from ..errors import InputError
 from ..io.series import event_rates
 from ..plot.maps import draw_maps, fields_of, panels_of
 from ..plot.scatter import draw_scatter
-from ..plot.style import counted
 from ..plot.sizes import draw_histograms, draw_sizes
+from ..plot.style import counted
 from ..plot.times import draw_pair_correlation, draw_phases, draw_profiles, draw_series, draw_uniformity
 from ..published.cases import CASES
 from ..published.compare import FOOTNOTE, RULE, compare
@@ -31,7 +31,7 @@ from .summary import Story, Summary
 
 def head(story: Story) -> str:
     """The run's name and its key figures."""
-    about = CASES[story.case].title if story.case else counted(len(story.heads) or len(story.made), 'frame')
+    about = CASES[story.case].title if story.case else counted(len(story.heads) or len(story.made), "frame")
     numbers: list[tuple[str, str]] = []
     if story.heads:
         last = story.values[-1]
