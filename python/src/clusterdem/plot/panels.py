@@ -120,9 +120,7 @@ def _ticks(axes: Sequence[Axes], width: float, height: float) -> None:
 
 def label_ends(axis: Axes, low: float, high: float) -> None:
     """Only the ends of the lower axis, their labels turned away from each other where the panel is narrow."""
-    figure = axis.get_figure(root=True)
-    assert figure is not None
-    width = axis.get_position().width * figure.get_size_inches()[0]
+    width = axis.bbox.width / axis.figure.dpi  # inch
     axis.set_xticks([low, high])
     labels = axis.get_xticklabels()
     outward = width < 0.6
