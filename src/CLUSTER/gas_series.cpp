@@ -169,9 +169,10 @@ void GasSeries::warn_outside(double t)
   if (!(before || after) || told) return;
   told = true;
   if (comm->me == 0)
-    error->warning(
-        FLERR,
-        "{}: time {:.6g} of the run is {} the series, which goes from {:.6g} to {:.6g}: its {} frame holds. Give "
-        "the run or the series another start, or the keyword loop",
-        me, t, before ? "before" : "after", times.front(), times.back(), before ? "first" : "last");
+    error->warning(FLERR,
+                   fmt::format("{}: time {:.6g} of the run is {} the series, which goes from {:.6g} to {:.6g}: "
+                               "its {} frame holds. Give "
+                               "the run or the series another start, or the keyword loop",
+                               me, t, before ? "before" : "after", times.front(), times.back(),
+                               before ? "first" : "last"));
 }
