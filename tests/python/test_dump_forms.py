@@ -219,3 +219,70 @@ def test_the_readers_of_other_packages(tmp_path):
     )
     with pytest.raises(ValueError, match="invalid literal"):
         mda.Universe(str(tmp_path / "case1.0.dump"), format="LAMMPSDUMP")
+
+
+def one(
+    x: float = 0.15,
+    y: str = "0.0015",
+    d: float = 1e-3,
+    columns: str = "id x y z vx vy vz diameter mass",
+    values: str = "",
+    head: str = "",
+    ylo: float = 0.0,
+) -> str:
+    """A dump of one cluster at x, z = 0.4 m, in a box of 0.1 to 0.3 m by ylo to 0.003 m by 0.1 to 0.7 m."""
+    given = {
+        "id": "1",
+        "x": repr(x),
+        "y": y,
+        "z": "0.4",
+        "vx": "1",
+        "vy": "2",
+        "vz": "3",
+        "diameter": repr(d),
+        "mass": "1e-6",
+        "density": "1200",
+    }
+    row = values or " ".join(given[name] for name in columns.split())
+    return f"{head}ITEM: TIMESTEP\n50\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp ff pp\n0.1 0.3\n{ylo} 0.003\n0.1 0.7\nITEM: ATOMS {columns}\n{row}\n"
+
+
+def read_one(tmp_path, text: str, **options):
+    (tmp_path / "a.dump").write_text(text)
+    (frame,) = read_dumps(tmp_path / "a.dump", **options)
+    return frame
+
+
+def test_a_place_just_below_a_periodic_side_is_inside(tmp_path):
+    """0.1 - 1e-17 is 0.1 in doubles; the step below it is wrapped to 0.3 - 2e-17, which rounds to the side itself: to 0.1."""
+    x = float(np.nextafter(0.1, 0.0))
+    assert read_one(tmp_path, one(x))["x"][0] in (0.1, np.nextafter(0.3, 0.0))
+    assert 0.1 <= read_one(tmp_path, one(x))["x"][0] < 0.3
+
+
+def test_a_column_density_goes_before_a_given_one(tmp_path):
+    frame = read_one(tmp_path, one(columns="id x y z vx vy vz diameter density"), density=2650.0)
+    assert frame["mass"][0] == pytest.approx(np.pi / 6 * 1e-9 * 1200.0, rel=1e-12)
+
+
+@pytest.mark.parametrize("axis", "xyz")
+def test_every_velocity_must_be_finite(tmp_path, axis):
+    text = one().replace(" 1 2 3 ", {"x": " nan 2 3 ", "y": " 1 nan 3 ", "z": " 1 2 inf "}[axis])
+    with pytest.raises(InputError, match=rf"\(v{axis}\) must be finite"):
+        read_one(tmp_path, text)
+
+
+def test_without_y_the_middle_of_the_box_is_taken(tmp_path):
+    assert read_one(tmp_path, one(columns="id x z vx vz diameter mass", ylo=0.001))["y"][0] == pytest.approx(0.002)
+
+
+def test_the_time_of_the_dump_goes_before_a_given_step(tmp_path):
+    assert read_one(tmp_path, one(head="ITEM: TIME\n0.25\n"), dt=1e-3).time == 0.25
+    assert read_one(tmp_path, one(), dt=1e-3).time == 0.05
+
+
+def test_diameters_reach_to_the_second_side_of_the_box(tmp_path):
+    """Sides of 0.2, 0.003 and 0.6 m: a slab may be thinner than its clusters, but none is larger than its second side."""
+    assert read_one(tmp_path, one(d=0.15))["diameter"][0] == 0.15
+    with pytest.raises(InputError, match="diameter must be positive, and smaller than the box"):
+        read_one(tmp_path, one(d=0.25))

@@ -163,7 +163,7 @@ def primary_of_columns(mass: Floats, diameter: Floats, n: Floats | None) -> Prim
 
     Clusters of one kind have one mass / n and one diameter³ / n, so that a column n of another meaning does not pass.
     """
-    if n is None or not len(n) or not (n > 0).all():
+    if n is None or not len(n) or not (n >= 1).all():
         return None
     each, size = mass / n, diameter * np.cbrt((1 - VOIDAGE) / n)
     order = np.argsort(each, kind="stable")
